@@ -57,8 +57,8 @@ const char* name_of(Shape shape) {
   throw std::invalid_argument("an actor has a shape that does not ship with the project");
 }
 
-fs::path& shipped_scenes() {
-  static fs::path folder = shipped_folder("scenes");
+const fs::path& shipped_scenes() {
+  static const fs::path folder = shipped_folder("scenes");
   return folder;
 }
 
@@ -72,10 +72,6 @@ fs::path shipped_file(const fs::path& name) {
 fs::path scenes_folder() {
   const char* const folder = std::getenv("LCS_SCENES");
   return folder && *folder ? fs::path(folder) : shipped_scenes();
-}
-
-void set_shipped_scenes(fs::path folder) {
-  shipped_scenes() = std::move(folder);
 }
 
 fs::path rover_file(const Ego& ego) {

@@ -15,10 +15,6 @@ namespace lcs::scenario {
 /// The folder in the environment variable LCS_SCENES, or else the folder of the shipped scenes.
 std::filesystem::path scenes_folder();
 
-/// Sets the folder of the shipped scenes where `shipped_folder` cannot find it: in a module that
-/// another program loads. Call it before all other functions here.
-void set_shipped_scenes(std::filesystem::path folder);
-
 /// \name The file of a rover or an actor: the scenario's own file, if given. Else a file such as
 /// "ego/wheeled.xml" in `scenes_folder()`, or, if absent there, in the shipped folder. So a user's
 /// folder need not have all files.

@@ -14,7 +14,7 @@ packages=(
   libosmesa6 libegl1 libopencv-dev libavformat-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
   libdeflate-dev libnlopt-cxx-dev libssl-dev
-  pybind11-dev python3-dev python3-numpy
+  pybind11-dev python3-dev python3-numpy ccache
 )
 
 # MuJoCo's wheel, which has the library and its headers, and its hash on each kind of processor. All

@@ -2,6 +2,7 @@
 
 import ast
 import copy
+import enum
 import gc
 import itertools
 import os
@@ -686,7 +687,7 @@ for name, make in ways.items():
         lcs_filter = lcs.Filter(scenario)
         result = lcs_filter.step(frame.corners, frame.motion)
         objects = [scenario, scenario.camera, simulation, frame, frame.motion, frame.truth, lcs_filter,
-                   result, lcs.Detections(), lcs.Scorer()]  # fmt: skip
+                   result, lcs.Detections(), lcs.Scorer(), lcs.Detector(scenario, "klt")]  # fmt: skip
         self.assertEqual({type(x) for x in objects}, set(self.CLASSES))
         for x in objects:
             before = repr(x)
@@ -704,20 +705,20 @@ class Types(unittest.TestCase):
     """The stubs say what is there: no more, no less."""
 
     def test_stubs_name_what_the_module_has(self):
-        stubs = ast.parse((Path(lcs.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
+        named = set()
+        stubs = ast.parse((Path(lcs.__file__).parent / "__init__.pyi").read_text(encoding="utf-8"))
         for node in stubs.body:
+            named.add(getattr(node, "name", None) or getattr(getattr(node, "target", None), "id", None))
             if not isinstance(node, ast.ClassDef):
                 continue
             real = getattr(lcs, node.name)
             members = {
                 item.name: item for item in node.body if isinstance(item, ast.FunctionDef)
             }
-            values = {
-                item.targets[0].id: item.value.value
-                for item in node.body if isinstance(item, ast.Assign)
-            }  # fmt: skip
-            if values:
-                self.assertEqual(values, {member.name: member.value for member in real})
+            if issubclass(real, enum.IntEnum):
+                numbers = {item.target.id for item in node.body if isinstance(item, ast.AnnAssign)}
+                numbers = {name for name in numbers if not name.startswith("_")}
+                self.assertEqual(numbers, {member.name for member in real})
                 continue
             public = {name for name in vars(real) if not name.startswith("_")}
             self.assertEqual({name for name in members if not name.startswith("_")}, public, node.name)
@@ -725,6 +726,7 @@ class Types(unittest.TestCase):
                 self.assertEqual(
                     isinstance(vars(real)[name], property), self.is_property(members[name]), name
                 )
+        self.assertLessEqual(set(lcs.__all__), named)
         self.assertTrue((Path(lcs.__file__).parent / "py.typed").exists())
 
     @staticmethod

@@ -26,12 +26,12 @@ fi
 
 # Detects a package that reads its scene from SOURCE.
 installed=$(venv/bin/python -c 'import lcs; print(lcs.SCENARIOS.parent)')
-[[ $installed == "$work"/venv/* && -f $installed/scenes/lab.xml && -f $installed/py.typed ]] || {
+[[ $installed == "$work"/venv/* && -f $installed/scenes/lab.xml && -f $installed/../../py.typed ]] || {
   printf 'FAILED: the installed package is not whole: %s\n' "$installed"
   exit 1
 }
 unset PYTHONPATH
 export LCS_PROGRAM=$lcs PYTHONDONTWRITEBYTECODE=1
-for test in api same_bits readme; do
+for test in api same_bits readme notebook; do
   venv/bin/python "$source/tests/python/${test}_test.py"
 done

@@ -636,6 +636,32 @@ TEST_F(GenerateInParts, ShardsOfASuiteAreTheSuiteAndOneBrokenScenarioDoesNotStop
   EXPECT_TRUE(bytes_in(home_.path() / "parts") == whole);
 }
 
+TEST_F(Generate, TheWorldsOfAllPartsAreThoseOfTheWhole) {
+  const auto worlds = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"generate",        "--worlds", "train",     "--count", "2",
+                                 "--frames",        "2",        "--formats", "tum",     "--out",
+                                 home_.path() / out};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_lcs(all, {.folder = home_.path()});
+  };
+  const CommandResult second = worlds("parts", {"--shard", "2/2"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  const auto drawn = [&] {
+    return std::distance(
+        fs::directory_iterator(*fs::directory_iterator(home_.path() / "out/worlds")),
+        fs::directory_iterator());
+  };
+  EXPECT_EQ(drawn(), 1) << "only the world of the part is drawn";
+  EXPECT_EQ(worlds("parts", {"--shard", "1/2"}).exit_code, 0);
+  EXPECT_EQ(worlds("all", {}).exit_code, 0);
+  const auto whole = bytes_in(home_.path() / "all");
+  EXPECT_FALSE(whole.empty());
+  EXPECT_TRUE(bytes_in(home_.path() / "parts") == whole);
+  const CommandResult too_many = worlds("more", {"--shard", "1/3"});
+  EXPECT_EQ(too_many.exit_code, 2);
+  EXPECT_NE(too_many.err.find("only 2 worlds"), std::string::npos) << too_many.err;
+}
+
 TEST_F(Generate, MistakesAreToldInOneLineBeforeAnythingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--formats", "rosbag"}, "'rosbag'; there are euroc"},
@@ -643,6 +669,7 @@ TEST_F(Generate, MistakesAreToldInOneLineBeforeAnythingIsWritten) {
       {{"--shard", "3/2"}, "--shard"},
       {{"--shard", "half"}, "--shard"},
       {{"--shard", "1/2", "--jobs", "2"}, "--jobs"},
+      {{"--worlds", "train"}, "--worlds"},
       {{"--set", "ego.sped=1 m/s"}, "speed"},
   };
   for (const auto& [more, expected] : cases) {

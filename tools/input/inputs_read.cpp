@@ -27,4 +27,9 @@ std::vector<std::filesystem::path> inputs_read() {
   return {noted().begin(), noted().end()};
 }
 
+void forget_inputs() {
+  const std::lock_guard lock(mutex);
+  noted().clear();
+}
+
 }  // namespace lcs::input

@@ -14,4 +14,7 @@ void note_input(const std::filesystem::path& path);
 /// Absolute paths without duplicates.
 std::vector<std::filesystem::path> inputs_read();
 
+/// Forgets all of them, in a process that carries out several requests one after another.
+void forget_inputs();
+
 }  // namespace lcs::input

@@ -1,25 +1,22 @@
-#include "tools/lcs/compare.h"
-
+/// \file
+/// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <stdexcept>
-#include <string_view>
+#include <memory>
 
-#include "tools/files/output.h"
+#include "tools/app/compare.h"
 #include "tools/input/message.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
-#include "tools/suite/comparison.h"
-#include "tools/suite/merge_request.h"
-#include "tools/suite/pattern.h"
-#include "tools/suite/suite_result.h"
-#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 namespace {
 
-namespace fs = std::filesystem;
+struct CompareOptions {
+  app::CompareRequest request;
+  bool all = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --out out/before
@@ -46,22 +43,28 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
                                   fmt::join(suite.sets, ", "))));
 }
 
-/// \param path a suite.json, or the folder of a suite.
-fs::path folder_of(const fs::path& path) {
-  return fs::is_directory(path) ? path : path.parent_path();
+ExitCode compare(const CompareOptions& options) {
+  const auto [before, after, comparison, verdict] = app::compare(options.request);
+  print_suite("before", options.request.before, before);
+  print_suite("after ", options.request.after, after);
+  print_out("{}", input::printable(suite::text_of(comparison, options.all)));
+  print_out("{}\n", coloured(verdict.line, verdict.is_good));
+  return comparison.has_regressed() ? kRegressed : kFine;
 }
 
 }  // namespace
 
-CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
+Command add_compare_command(CLI::App& app) {
+  const auto owned = std::make_shared<CompareOptions>();
+  CompareOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "compare", "Tell what got better and what got worse between two suites, beyond noise");
-  command.add_option("BEFORE", options.before, "A suite.json, or the folder of a suite")
+  command.add_option("BEFORE", options.request.before, "A suite.json, or the folder of a suite")
       ->required()
       ->type_name("");
-  command.add_option("AFTER", options.after, "Another one")->required()->type_name("");
+  command.add_option("AFTER", options.request.after, "Another one")->required()->type_name("");
   command
-      .add_option("--metric", options.metric,
+      .add_option("--metric", options.request.metric,
                   "Only figures with this regular expression in their name")
       ->type_name("REGEX");
   command.add_flag("--all", options.all,
@@ -71,45 +74,18 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
       "Exit with 1 where something regressed: this command always does, lcs suite only where it is "
       "asked");
   command
-      .add_option("--markdown", options.markdown,
+      .add_option("--markdown", options.request.markdown,
                   "Folder for summary.md, for the discussion of a merge request, and two pictures "
                   "of the event that grew most")
       ->type_name("DIR")
       ->group(kOutputs);
   command
-      .add_option("--pictures-at", options.pictures_at,
+      .add_option("--pictures-at", options.request.pictures_at,
                   "Address where the pictures will be; beside summary.md if not given")
       ->type_name("URL")
       ->needs("--markdown");
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode compare(const CompareOptions& options) {
-  const suite::Pattern wanted(options.metric, "--metric", "rebel.*f1");
-  const suite::SuiteResult before = suite::read_suite(options.before);
-  const suite::SuiteResult after = suite::read_suite(options.after);
-  const suite::Comparison comparison =
-      suite::compare(before, after, [&](std::string_view metric) { return wanted.is_in(metric); });
-  if (comparison.scenarios.empty()) {
-    throw std::runtime_error(
-        fmt::format("{} and {} have no scenario in common; give two suites of the same "
-                    "scenarios",
-                    options.before, options.after));
-  }
-  if (!options.markdown.empty()) {
-    bench::Output folder(options.markdown,
-                         {suite::kSummaryFile, suite::kBeforePicture, suite::kAfterPicture});
-    suite::write_merge_request(folder.staging(), {before, folder_of(options.before)},
-                               {after, folder_of(options.after)}, comparison, options.pictures_at);
-    folder.commit();
-  }
-  print_suite("before", options.before, before);
-  print_suite("after ", options.after, after);
-  print_out("{}", input::printable(suite::text_of(comparison, options.all)));
-  const suite::Verdict verdict = suite::verdict_of({after, {}}, nullptr, &comparison);
-  print_out("{}\n", coloured(verdict.line, verdict.is_good));
-  return comparison.has_regressed() ? kRegressed : kFine;
+  return {command, [owned] { return compare(*owned); }};
 }
 
 }  // namespace lcs::tools

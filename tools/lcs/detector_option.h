@@ -9,39 +9,13 @@
 #include <vector>
 
 #include "scenarios/quantities.h"
-#include "tools/comparators/detectors.h"
+#include "tools/app/detector_choice.h"
 #include "tools/lcs/options.h"
 
 namespace lcs::tools {
 
-/// The requested detector, from the command line.
-struct DetectorOptions {
-  std::string name;     ///< "": lcs, or a default name for a program or file
-  std::string command;  ///< of a detector program; "": no program
-  double timeout_s = comparators::Program{}.timeout_s;
-  std::string detections;  ///< CSV file or folder; "": none
-};
-
-/// The options that select the same detector program in a child process; empty for other detectors.
-inline std::vector<std::string> arguments_of(const DetectorOptions& options) {
-  if (options.command.empty()) return {};
-  return {"--detector-command", options.command, "--detector-timeout",
-          fmt::format("{} s", options.timeout_s)};
-}
-
-/// \throws std::invalid_argument as the `comparators::spec_of` functions do.
-inline comparators::DetectorSpec spec_of(const DetectorOptions& options) {
-  if (!options.command.empty()) {
-    return comparators::spec_of_program(options.name, {options.command, options.timeout_s});
-  }
-  if (!options.detections.empty()) {
-    return comparators::spec_of_file(options.name, options.detections);
-  }
-  return comparators::spec_of(options.name.empty() ? "lcs" : options.name);
-}
-
 /// Adds --detector, whose help lists all detectors, --detector-command and --detector-timeout.
-inline void add_detector_option(CLI::App& command, DetectorOptions& options,
+inline void add_detector_option(CLI::App& command, app::DetectorChoice& options,
                                 const std::string& more = "") {
   std::string about = "What watches; lcs if not given:";
   for (const comparators::DetectorKind& each : comparators::detectors()) {

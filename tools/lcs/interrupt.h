@@ -2,16 +2,11 @@
 /// Termination signals are handled between two frames, so that no output is left incomplete.
 #pragma once
 
-#include <stdexcept>
-#include <string>
+#include "tools/app/caller.h"
 
 namespace lcs::tools {
 
-class Interrupted : public std::runtime_error {
- public:
-  explicit Interrupted(const std::string& what = "interrupted; nothing was written")
-      : std::runtime_error(what) {}
-};
+using app::Interrupted;
 
 /// Whether a signal has arrived for which `check_interrupted` throws.
 bool is_interrupted();

@@ -1,21 +1,19 @@
-#include "tools/lcs/kinematics.h"
+/// \file
+/// `lcs kinematics`: the conditions under which the kinematics model holds for a camera and rover.
+#include <memory>
 
-#include <fmt/format.h>
-
-#include "scenarios/load.h"
-#include "scenarios/scenes.h"
-#include "scenarios/shipped.h"
-#include "tools/files/output.h"
-#include "tools/kinematics/answer.h"
-#include "tools/kinematics/study.h"
-#include "tools/kinematics/study_files.h"
-#include "tools/lcs/interrupt.h"
+#include "tools/app/kinematics.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/options.h"
-#include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
+
+struct KinematicsOptions {
+  app::KinematicsRequest request;
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs kinematics                                    the camera and rover of scenarios/crossing.yaml
@@ -34,6 +32,7 @@ along drives. tools/kinematics/README.md says how each figure is taken.
 of 20 and 300. What has no noise in it is the same.
 
 Files written to the folder, all or none:
+  run.json           how it was made: command, program, versions, date
   answer.txt         the printed text
   answer.csv         its figures, beside those that theory expects
   kinematics.html    the answer and plots; open it in a browser
@@ -49,55 +48,38 @@ Exit codes:
 
 constexpr input::Quantity kTolerance{input::Dimension::pixels, {0, 1000, true}};
 
+ExitCode kinematics(const KinematicsOptions& options) {
+  Terminal terminal(options.quiet);
+  const app::KinematicsMade made = app::kinematics(options.request, terminal);
+  if (!options.quiet) print_out("{}\nresults in {}\n", made.text, made.folder.string());
+  return kFine;
+}
+
 }  // namespace
 
-CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
+Command add_kinematics_command(CLI::App& app) {
+  const auto owned = std::make_shared<KinematicsOptions>();
+  KinematicsOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "kinematics",
       "Measure when the motion model holds for a camera and rover, against the truth");
   command
       .add_option(
-          "--config", options.config,
+          "--config", options.request.config,
           "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given")
       ->type_name("FILE");
-  add_set_option(command, options.sets, "Set a value of the scenario, as \"camera.fovy=90 deg\"");
-  add_out_option(command, options.out, "out/kinematics");
+  add_set_option(command, options.request.sets,
+                 "Set a value of the scenario, as \"camera.fovy=90 deg\"");
+  add_out_option(command, options.request.out, "out/kinematics");
   add_quantity_option(
-      command, "--tolerance", kTolerance, options.tolerance_px,
+      command, "--tolerance", kTolerance, options.request.tolerance_px,
       "Error of a prediction that is small enough, for the answer; 1 px if not given")
       ->type_name("PX");
-  command.add_flag("--quick", options.quick, "Fewer frames and seeds: a quarter of the time");
+  command.add_flag("--quick", options.request.quick,
+                   "Fewer frames and seeds: a quarter of the time");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode kinematics(const KinematicsOptions& options) {
-  const std::filesystem::path file = options.config.empty()
-                                         ? scenario::shipped_folder("scenarios") / "crossing.yaml"
-                                         : std::filesystem::path(options.config);
-  kinematics::StudyConfig config = kinematics::configure(
-      scenario::load(file, {.sets = options.sets, .seed = {}}),
-      options.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
-  config.tolerance_px = options.tolerance_px;
-  warn(scenario::shadowed_files(config.scenario));
-  bench::Output folder(options.out, kinematics::study_files());
-  const auto study = [&] {
-    Progress progress("kinematics", kinematics::study_pieces(config), options.quiet, "experiments");
-    int done = 0;
-    return kinematics::carry_out(config, [&](int more) {
-      check_interrupted();
-      progress.show(done += more);
-    });
-  }();
-  kinematics::write_study(folder.staging(), study);
-  check_interrupted();
-  folder.commit();
-  if (!options.quiet) {
-    print_out("{}\nresults in {}\n", kinematics::text_of(config, kinematics::answer(study)),
-              folder.target().string());
-  }
-  return kFine;
+  return {command, [owned] { return kinematics(*owned); }};
 }
 
 }  // namespace lcs::tools

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <new>
 #include <opencv2/core.hpp>
@@ -14,25 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "tools/app/version.h"
 #include "tools/input/message.h"
 #include "tools/input/spelling.h"
-#include "tools/lcs/compare.h"
-#include "tools/lcs/exit_codes.h"
-#include "tools/lcs/generate.h"
-#include "tools/lcs/how_made.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/kinematics.h"
-#include "tools/lcs/merge.h"
 #include "tools/lcs/options.h"
-#include "tools/lcs/preview.h"
-#include "tools/lcs/replay.h"
-#include "tools/lcs/run.h"
-#include "tools/lcs/score.h"
-#include "tools/lcs/suite.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/tune.h"
-#include "tools/lcs/version.h"
-#include "tools/lcs/world.h"
 
 namespace {
 
@@ -92,37 +79,15 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
   app.formatter(std::make_shared<Help>());
   app.set_version_flag(
-      "--version", version_text,
+      "--version", lcs::app::version_text,
       "Print the versions of this program (with its commit), MuJoCo, the renderer and OpenCV");
   app.require_subcommand(1);
   app.footer(kHelp);
-  RunOptions run_options;
-  PreviewOptions preview_options;
-  ReplayOptions replay_options;
-  ScoreOptions score_options;
-  SuiteOptions suite_options;
-  MergeOptions merge_options;
-  CompareOptions compare_options;
-  GenerateOptions generate_options;
-  KinematicsOptions kinematics_options;
-  WorldOptions world_options;
-  TuneOptions tune_options;
-  const struct {
-    const CLI::App& command;
-    std::function<ExitCode()> carry_out;
-  } commands[] = {
-      {add_run_command(app, run_options), [&] { return run(run_options); }},
-      {add_preview_command(app, preview_options), [&] { return preview(preview_options); }},
-      {add_replay_command(app, replay_options), [&] { return replay(replay_options); }},
-      {add_score_command(app, score_options), [&] { return score(score_options); }},
-      {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},
-      {add_merge_command(app, merge_options), [&] { return merge(merge_options); }},
-      {add_generate_command(app, generate_options), [&] { return generate(generate_options); }},
-      {add_compare_command(app, compare_options), [&] { return compare(compare_options); }},
-      {add_kinematics_command(app, kinematics_options),
-       [&] { return kinematics(kinematics_options); }},
-      {add_world_command(app, world_options), [&] { return world(world_options); }},
-      {add_tune_command(app, tune_options), [&] { return tune(tune_options); }},
+  const Command commands[] = {
+      add_run_command(app),      add_preview_command(app), add_replay_command(app),
+      add_score_command(app),    add_suite_command(app),   add_merge_command(app),
+      add_generate_command(app), add_compare_command(app), add_kinematics_command(app),
+      add_world_command(app),    add_tune_command(app),
   };
   refuse_empty_options(app);
   try {
@@ -141,8 +106,8 @@ int run_command_line(int argc, char** argv) {
     const std::string command = named.empty() ? "" : named.front()->get_name() + " ";
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
-  for (const auto& [command, carry_out] : commands) {
-    if (command.parsed()) return carry_out();
+  for (const Command& command : commands) {
+    if (command.options.parsed()) return command.carry_out();
   }
   return fail("no command was given; see lcs --help");
 }
@@ -154,7 +119,6 @@ int main(int argc, char** argv) {
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_descriptors();
-  command_line().assign(argv + 1, argv + argc);
   try {
     const int exit_code = run_command_line(argc, argv);
     finish_out();

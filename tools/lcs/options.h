@@ -11,7 +11,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scenarios/shipped.h"
@@ -97,17 +96,6 @@ inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
       ->allow_extra_args(false);
 }
 
-/// Splits "key=value", a filter setting given by `--set`.
-/// \throws std::invalid_argument if there is no '='.
-inline std::pair<std::string, std::string> key_and_value(const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos) {
-    throw std::invalid_argument("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '" + setting +
-                                "'");
-  }
-  return {setting.substr(0, equals), setting.substr(equals + 1)};
-}
-
 /// Help heading of all options that name output files. Each such path goes through
 /// `bench::Output`, or through `bench::output_path` for a folder that is filled step by step.
 inline constexpr const char* kOutputs = "Outputs";
@@ -146,15 +134,7 @@ inline void add_result_options(CLI::App& command, bool& no_video, bool& events) 
 inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
   return command
       .add_option_function<std::string>(
-          "--keep",
-          [&keep](const std::string& text) {
-            const auto found = std::ranges::find(bench::kKeepWords, text);
-            if (found == bench::kKeepWords.end()) {
-              throw std::invalid_argument("--keep is '" + text +
-                                          "'; it takes figures, events or all");
-            }
-            keep = static_cast<bench::Keep>(found - bench::kKeepWords.begin());
-          },
+          "--keep", [&keep](const std::string& text) { keep = bench::keep_of(text); },
           "The files of each run: figures; events: also a row a frame and the events; all: also "
           "layers, truth and pictures, for --recorded")
       ->type_name("WHAT");

@@ -1,15 +1,19 @@
-#include "tools/lcs/preview.h"
-
+/// \file
+/// `lcs preview`: shows a scenario's plan and its problems without running it.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scenarios/load.h"
 #include "sim/survey.h"
 #include "tools/files/output.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -18,6 +22,16 @@
 
 namespace lcs::tools {
 namespace {
+
+struct PreviewOptions {
+  std::string scenario;  ///< scenario file
+  std::string out;       ///< HTML file; "": out/preview/SCENARIO.html
+  std::string mjcf;      ///< file for the world's MJCF; "": none
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> sets;  ///< "key=value"
+  bool force = false;
+  bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -61,27 +75,6 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
   write_out(fmt::format("{}  page     {}\n", text, page.string()));
 }
 
-}  // namespace
-
-CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
-  CLI::App& command = *app.add_subcommand(
-      "preview", "Show a scenario before it is run: its plan, three pictures, what is wrong");
-  command
-      .add_option("SCENARIO", options.scenario,
-                  "The scenario: a YAML file, or the name of one of the project, as night")
-      ->required()
-      ->type_name("");
-  add_output_file_option(command, "--out", options.out, options.force,
-                         "The page; out/preview/SCENARIO.html if not given");
-  add_output_file_option(command, "--mjcf", options.mjcf, options.force,
-                         "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb");
-  add_seed_option(command, options.seed);
-  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  command.add_flag("--quiet", options.quiet, "Print only what is wrong");
-  command.footer(kHelp);
-  return command;
-}
-
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
       scenario::load(scenario_file(options.scenario), {.sets = options.sets, .seed = options.seed});
@@ -111,6 +104,29 @@ ExitCode preview(const PreviewOptions& options) {
   if (!options.quiet) print_preview(scenario, p, page.target());
   for (const std::string& line : p.wrong) tell(line);
   return p.wrong.empty() ? kFine : kCriterionFailed;
+}
+
+}  // namespace
+
+Command add_preview_command(CLI::App& app) {
+  const auto owned = std::make_shared<PreviewOptions>();
+  PreviewOptions& options = *owned;
+  CLI::App& command = *app.add_subcommand(
+      "preview", "Show a scenario before it is run: its plan, three pictures, what is wrong");
+  command
+      .add_option("SCENARIO", options.scenario,
+                  "The scenario: a YAML file, or the name of one of the project, as night")
+      ->required()
+      ->type_name("");
+  add_output_file_option(command, "--out", options.out, options.force,
+                         "The page; out/preview/SCENARIO.html if not given");
+  add_output_file_option(command, "--mjcf", options.mjcf, options.force,
+                         "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb");
+  add_seed_option(command, options.seed);
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
+  command.add_flag("--quiet", options.quiet, "Print only what is wrong");
+  command.footer(kHelp);
+  return {command, [owned] { return preview(*owned); }};
 }
 
 }  // namespace lcs::tools

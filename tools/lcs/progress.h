@@ -5,20 +5,21 @@
 #include <chrono>
 #include <string>
 
+#include "tools/app/caller.h"
+
 namespace lcs::tools {
 
-class Progress {
+class Progress : public app::Progress {
  public:
   /// \param total number of `unit`s to process.
   /// \param quiet prints nothing.
   Progress(std::string name, int total, bool quiet, std::string unit = "frames");
   /// Erases the bar.
-  ~Progress();
+  ~Progress() override;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// \param done number of units processed so far.
-  void show(int done);
+  void show(int done) override;
 
  private:
   void show_bar(int done);

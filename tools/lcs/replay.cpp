@@ -1,14 +1,12 @@
-#include "tools/lcs/replay.h"
-
+/// \file
+/// `lcs replay`: runs a detector on a recording that options describe instead of a scenario file.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
+#include <memory>
+#include <string>
 
-#include "scenarios/load.h"
-#include "tools/files/csv.h"
-#include "tools/files/output.h"
-#include "tools/input/document.h"
+#include "tools/app/replay.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/run.h"
@@ -17,6 +15,16 @@
 
 namespace lcs::tools {
 namespace {
+
+struct ReplayOptions {
+  app::ReplayRequest request;
+  std::string write;  ///< scenario file to write instead of running; "": run
+  bool force = false;
+  bool quiet = false;
+};
+
+using app::flag_of;
+using app::kNothingMoves;
 
 constexpr const char* kHelp =
     R"(Examples:
@@ -44,9 +52,6 @@ told; the time of a picture that is left out passes.
 Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json. A sequence of
 lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its run.
 )";
-
-namespace fs = std::filesystem;
-using input::Value;
 
 /// An option that is a key of `recording`. The scenario loader checks its value.
 struct KeyOption {
@@ -94,124 +99,25 @@ constexpr KeyOption kKeys[] = {
     {"split", "NAME", "What its figures are for: train, validate or test"},
 };
 
-constexpr std::string_view kTopics = "topics.";
-
-/// --fps for fps, --image-topic for topics.image, --world-frame for topics.world.
-std::string flag_of(const std::string& key) {
-  std::string flag = "--" + key;
-  if (key.starts_with(kTopics)) {
-    flag = "--" + key.substr(kTopics.size()) + (key.ends_with("world") ? "-frame" : "-topic");
+ExitCode replay(const ReplayOptions& options) {
+  if (!options.write.empty()) {
+    app::write_scenario(options.request, options.write, overwrite(options.force));
+    return kFine;
   }
-  std::replace(flag.begin(), flag.end(), '_', '-');
-  return flag;
-}
-
-Value scalar(const std::string& flag, const std::string& text) {
-  return {Value::Kind::scalar, {flag, 0}, text};
-}
-
-Value list_of(const std::string& flag, const std::string& text) {
-  Value list(Value::Kind::list, {flag, 0});
-  for (const std::string_view item : bench::fields_of(text)) {
-    list.items.push_back(scalar(flag, std::string(item)));
-  }
-  return list;
-}
-
-/// Sets a key of the map: replaces its value or appends a new entry.
-void put(Value& map, const std::string& key, Value value) {
-  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
-                                  [&](const input::Entry& entry) { return entry.key == key; });
-  if (found != map.entries.end()) {
-    found->value = std::move(value);
-  } else {
-    const input::Source where = value.where;
-    map.entries.push_back({key, where, std::move(value)});
-  }
-}
-
-Value recording_of(const ReplayOptions& options) {
-  Value recording(Value::Kind::map, {options.path, 0}), topics(Value::Kind::map, {options.path, 0});
-  put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, options.path});
-  for (const auto& [key, text] : options.recording) {
-    const std::string flag = flag_of(key);
-    if (key == "equidistant") {
-      Value fisheye(Value::Kind::map, {flag, 0});
-      put(fisheye, key, list_of(flag, text));
-      put(recording, "distortion", std::move(fisheye));
-    } else if (key.starts_with(kTopics)) {
-      put(topics, key.substr(kTopics.size()), scalar(flag, text));
-    } else {
-      const bool is_list = key == "centre" || key == "mount" || key == "distortion";
-      put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
-    }
-  }
-  if (!topics.entries.empty()) put(recording, "topics", std::move(topics));
-  return recording;
-}
-
-Value filter_of(const ReplayOptions& options) {
-  Value filter(Value::Kind::map, {"--set", 0});
-  if (!options.preset.empty()) {
-    put(filter, "preset", scalar("--preset " + options.preset, options.preset));
-  }
-  for (const std::string& setting : options.sets) {
-    const auto [key, value] = key_and_value(setting);
-    put(filter, key, scalar("--set " + setting, value));
-  }
-  return filter;
-}
-
-/// The options as a scenario document.
-Value document_of(const ReplayOptions& options) {
-  Value root(Value::Kind::map, {"lcs replay", 0});
-  put(root, "recording", recording_of(options));
-  if (!options.ego_motion.empty()) {
-    put(root, "ego_motion", scalar("--ego-motion", options.ego_motion));
-  }
-  if (!options.fast_threshold.empty()) {
-    Value corners(Value::Kind::map, {"--fast-threshold", 0});
-    put(corners, "threshold", scalar("--fast-threshold", options.fast_threshold));
-    put(root, "corners", std::move(corners));
-  }
-  Value filter = filter_of(options);
-  if (!filter.entries.empty()) put(root, "filter", std::move(filter));
-  return root;
-}
-
-/// The name of the recording's folder, or of its video without the extension.
-std::string name_of(const fs::path& path) {
-  // A path with a trailing slash has an empty filename.
-  const fs::path whole = fs::absolute(path).lexically_normal();
-  const fs::path last = whole.has_filename() ? whole : whole.parent_path();
-  return (fs::is_directory(last) ? last.filename() : last.stem()).string();
-}
-
-/// Makes all paths absolute, because a scenario's paths are relative to its file.
-void make_absolute(Value& recording) {
-  for (input::Entry& entry : recording.entries) {
-    for (const char* key : {"path", "times", "poses", "imu", "odometry", "calibration",
-                            "imu_calibration", "mask", "labels"}) {
-      if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
-    }
-  }
-}
-
-void write_scenario(Value document, bench::Output&& file) {
-  for (input::Entry& entry : document.entries) {
-    if (entry.key == "recording") make_absolute(entry.value);
-  }
-  bench::write_file(file.staging(), input::yaml_text(document) + "\n");
-  file.commit();
+  Terminal terminal(options.quiet);
+  return show_run(app::replay(options.request, terminal), options.quiet);
 }
 
 }  // namespace
 
-CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
+Command add_replay_command(CLI::App& app) {
+  const auto owned = std::make_shared<ReplayOptions>();
+  ReplayOptions& options = *owned;
   CLI::App& command =
       *app.add_subcommand("replay", "Run the LCS filter (or a comparator) on a recording");
   command
-      .add_option("--images,PATH", options.path, "The recording: a folder, a video, or a ROS bag")
+      .add_option("--images,PATH", options.request.path,
+                  "The recording: a folder, a video, or a ROS bag")
       ->required()
       ->type_name("");
   std::string about = "Layout of the recording; if not given, told from what is there:";
@@ -220,58 +126,38 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   }
   const auto add_key = [&](const std::string& key, const std::string& what) {
     return command.add_option_function<std::string>(
-        flag_of(key), [&options, key](const std::string& text) { options.recording[key] = text; },
-        what);
+        flag_of(key),
+        [&options, key](const std::string& text) { options.request.recording[key] = text; }, what);
   };
   add_key("format", about)->type_name("NAME");
   for (const KeyOption& key : kKeys) add_key(key.key, key.about)->type_name(key.type);
   command.add_flag_callback(
-      "--nothing-moves", [&options] { options.recording["nothing_moves"] = "true"; },
+      "--nothing-moves", [&options] { options.request.recording[kNothingMoves] = "true"; },
       "Nothing but the camera moves: every rebel is false");
   command
-      .add_option("--ego-motion", options.ego_motion,
+      .add_option("--ego-motion", options.request.ego_motion,
                   "imu: by dead reckoning; truth: by the recording's own truth")
       ->type_name("SOURCE");
   command
-      .add_option("--fast-threshold", options.fast_threshold,
+      .add_option("--fast-threshold", options.request.fast_threshold,
                   "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the "
                   "compression of each picture. If not given, auto or the recording's")
       ->type_name("N|auto");
-  add_detector_option(command, options.detector, kPresetDetector);
+  add_detector_option(command, options.request.detector, kPresetDetector);
   command
-      .add_option("--preset", options.preset,
+      .add_option("--preset", options.request.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
-  add_set_option(command, options.sets, "Set a parameter of the filter, as hypotheses.prior=0.05");
-  add_beside_option(command, options.beside);
-  add_out_option(command, options.out, "out/<recording>");
+  add_set_option(command, options.request.sets,
+                 "Set a parameter of the filter, as hypotheses.prior=0.05");
+  add_beside_option(command, options.request.beside);
+  add_out_option(command, options.request.out, "out/<recording>");
   add_output_file_option(command, "--write", options.write, options.force,
                          "Write the scenario that the options make to this file, and run nothing");
-  add_result_options(command, options.no_video, options.events);
+  add_result_options(command, options.request.no_video, options.request.events);
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode replay(const ReplayOptions& options) {
-  const Value document = document_of(options);
-  scenario::Scenario scenario = scenario::load(document, "");
-  scenario.name = options.out.empty() ? name_of(options.path) : name_of(options.out);
-  if (!options.write.empty()) {
-    write_scenario(document, bench::Output(options.write, overwrite(options.force)));
-    return kFine;
-  }
-  return run_scenario({.scenario = {},
-                       .out = options.out,
-                       .seed = {},
-                       .sets = {},
-                       .detector = options.detector,
-                       .beside = options.beside,
-                       .recorded = {},
-                       .no_video = options.no_video,
-                       .events = options.events,
-                       .quiet = options.quiet},
-                      std::move(scenario));
+  return {command, [owned] { return replay(*owned); }};
 }
 
 }  // namespace lcs::tools

@@ -7,25 +7,24 @@
 #include <string>
 #include <vector>
 
-#include "tools/suite/suite_run.h"
+#include "tools/app/suite.h"
 
 namespace lcs::tools {
 
-class SuiteProgress {
+class SuiteProgress : public app::SuiteWatch {
  public:
   /// \param quiet prints nothing.
   explicit SuiteProgress(bool quiet);
   /// Erases the status line.
-  ~SuiteProgress();
+  ~SuiteProgress() override;
   SuiteProgress(const SuiteProgress&) = delete;
   SuiteProgress& operator=(const SuiteProgress&) = delete;
 
-  /// \param detectors names, the suite's own first. \param runs the result of each detector.
   void finished(const suite::SuiteProgress& progress, const std::string& scenario,
                 const std::vector<std::string>& detectors,
-                std::span<const suite::RunResult* const> runs);
-  void show(const suite::SuiteProgress& progress);
-  void wipe();
+                std::span<const suite::RunResult* const> runs) override;
+  void show(const suite::SuiteProgress& progress) override;
+  void wipe() override;
 
  private:
   using Clock = std::chrono::steady_clock;

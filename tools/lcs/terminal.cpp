@@ -15,6 +15,7 @@
 #include "tools/files/output_file.h"
 #include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/progress.h"
 
 namespace lcs::tools {
 namespace {
@@ -90,6 +91,19 @@ std::string coloured(const std::string& text, bool is_good) {
                         is("NO_COLOR", [](auto value) { return !value.empty(); }) ||
                         is("TERM", [](auto value) { return value == "dumb"; });
   return is_plain ? text : fmt::format("\x1b[{}m{}\x1b[0m", is_good ? 32 : 31, text);
+}
+
+void Terminal::check() {
+  check_interrupted();
+}
+
+void Terminal::note(const std::string& line) {
+  if (!quiet_) tools::tell(line);
+}
+
+std::unique_ptr<app::Progress> Terminal::progress(const std::string& name, int total,
+                                                  const std::string& unit) {
+  return std::make_unique<Progress>(name, total, quiet_, unit);
 }
 
 void finish_out() {

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "tools/app/caller.h"
 
 namespace lcs::tools {
 
@@ -38,6 +41,21 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
 /// The text in green or red, if standard output is a terminal and the environment neither sets
 /// NO_COLOR (no-color.org) nor says that the terminal is dumb.
 std::string coloured(const std::string& text, bool is_good);
+
+/// Shows on stderr what a function of the library says, and ends it after a signal.
+class Terminal : public app::Caller {
+ public:
+  explicit Terminal(bool quiet) : quiet_(quiet) {}
+  void check() override;
+  void tell(const std::string& line) override { tools::tell(line); }
+  void note(const std::string& line) override;
+  void warn(const std::vector<std::string>& lines) override { tools::warn(lines); }
+  std::unique_ptr<app::Progress> progress(const std::string& name, int total,
+                                          const std::string& unit) override;
+
+ private:
+  bool quiet_;
+};
 
 /// Flushes std::cout and stdout. \throws as `write_out`.
 void finish_out();

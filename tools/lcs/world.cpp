@@ -1,23 +1,23 @@
-#include "tools/lcs/world.h"
-
+/// \file
+/// `lcs world`: draws a scenario and its scene at random from a seed.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
-#include <vector>
+#include <memory>
 
-#include "tools/files/output.h"
-#include "tools/files/output_file.h"
-#include "tools/lcs/interrupt.h"
+#include "tools/app/world.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
-#include "tools/sequence/png.h"
-#include "tools/worlds/sheet.h"
-#include "tools/worlds/textures.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 namespace {
+
+struct WorldOptions {
+  app::WorldRequest request;
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs world room --seed 7 --out my/room          my/room/room_7.yaml, and what it is made of
@@ -41,53 +41,40 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
-}  // namespace
-
-CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
-  CLI::App& command =
-      *app.add_subcommand("world", "Draw a scenario and its scene from a seed, and write them");
-  command
-      .add_option("FAMILY", options.family,
-                  fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
-      ->type_name("")
-      ->required();
-  add_seed_option(command, options.seed, "What it is drawn from; 1 if not given");
-  add_out_option(command, options.out, "out/worlds/FAMILY_SEED");
-  command
-      .add_option("--pictures", options.pictures,
-                  "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from")
-      ->type_name("DIR");
-  command.add_flag("--sheet", options.sheet,
-                   "Write sheet.png too: first, middle and last picture, and the plan from above");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return command;
-}
-
 ExitCode world(const WorldOptions& options) {
-  std::vector<std::string> pictures;
-  if (!options.pictures.empty()) pictures = worlds::pictures_in(options.pictures);
-  const worlds::World drawn = worlds::draw_world({options.family, options.seed}, pictures);
-  const std::filesystem::path target =
-      options.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
-                          : std::filesystem::path(options.out);
-  bench::Output folder(target, worlds::world_files());
-  worlds::write_world(drawn, folder.staging());
-  if (options.sheet) {
-    const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
-    const cv::Mat3b sheet =
-        worlds::contact_sheet(worlds::simulated_shots(scenario), worlds::plan(drawn), 2);
-    bench::write_file(folder.staging() / worlds::kSheetFile,
-                      sequence::encode_png(sheet, sequence::PngFilter::sub));
-  }
-  check_interrupted();
-  folder.commit();
+  Terminal terminal(options.quiet);
+  const auto [drawn, folder] = app::world(options.request, terminal);
   if (!options.quiet) {
     print_out("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
               worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
-              drawn.attempt, fmt::join(drawn.features, ", "), folder.target().string());
+              drawn.attempt, fmt::join(drawn.features, ", "), folder.string());
   }
   return kFine;
+}
+
+}  // namespace
+
+Command add_world_command(CLI::App& app) {
+  const auto owned = std::make_shared<WorldOptions>();
+  WorldOptions& options = *owned;
+  CLI::App& command =
+      *app.add_subcommand("world", "Draw a scenario and its scene from a seed, and write them");
+  command
+      .add_option("FAMILY", options.request.family,
+                  fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
+      ->type_name("")
+      ->required();
+  add_seed_option(command, options.request.seed, "What it is drawn from; 1 if not given");
+  add_out_option(command, options.request.out, "out/worlds/FAMILY_SEED");
+  command
+      .add_option("--pictures", options.request.pictures,
+                  "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from")
+      ->type_name("DIR");
+  command.add_flag("--sheet", options.request.sheet,
+                   "Write sheet.png too: first, middle and last picture, and the plan from above");
+  add_quiet_option(command, options.quiet);
+  command.footer(kHelp);
+  return {command, [owned] { return world(*owned); }};
 }
 
 }  // namespace lcs::tools

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include "tools/output/event_pictures.h"
@@ -9,6 +10,14 @@
 #include "tools/scoring/figures_file.h"
 
 namespace lcs::bench {
+
+Keep keep_of(const std::string& word) {
+  const auto found = std::ranges::find(kKeepWords, word);
+  if (found == kKeepWords.end()) {
+    throw std::invalid_argument("--keep is '" + word + "'; it takes figures, events or all");
+  }
+  return static_cast<Keep>(found - kKeepWords.begin());
+}
 
 ResultNames result_files() {
   const std::string compressed = ".gz";

@@ -20,7 +20,7 @@
 
 namespace lcs::bench {
 
-/// How a folder of results was made; written by the commands (tools/lcs/how_made.h).
+/// How a folder of results was made; written by the commands (tools/app/how_made.h).
 inline constexpr const char* kHowMadeFile = "run.json";
 
 /// All files that the folder of a run may contain.
@@ -35,6 +35,12 @@ enum class Keep {
 
 /// The words of `--keep`, in the order of `Keep`.
 inline constexpr std::array<std::string_view, 3> kKeepWords{"figures", "events", "all"};
+constexpr std::string_view word_of(Keep keep) {
+  return kKeepWords.at(static_cast<std::size_t>(keep));
+}
+
+/// \throws std::invalid_argument for another word.
+Keep keep_of(const std::string& word);
 
 /// Optional contents of a result.
 struct ResultOptions {

@@ -53,12 +53,12 @@ std::shared_ptr<Result> step(PictureFilter& own, const py::object& corners, cons
   }
   auto result = std::make_shared<Result>();
   if (signatures.is_none()) {
-    result->said = bench::timed(result->filter_ms, [&]() -> const FrameResult& {
+    result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
       return filter.step(corners_px, motion, view);
     });
   } else {
     const std::vector<Signature> given = signatures_of(signatures);
-    result->said = bench::timed(result->filter_ms, [&]() -> const FrameResult& {
+    result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
       return filter.step(corners_px, given, motion, view);
     });
   }
@@ -117,7 +117,7 @@ py::list outlines(const Result& result) {
 
 void bind_result(py::module_& module) {
   class_of<Result, std::shared_ptr<Result>>(module, "Result",
-                                            "What the filter says of a frame. Structured arrays "
+                                            "What a detector says of a frame. Structured arrays "
                                             "have the fields of layers.jsonl; places are in\n"
                                             "pixels, angles in rad, speeds in px/s.")
       .def_property_readonly(

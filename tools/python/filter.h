@@ -5,13 +5,18 @@
 #include <pybind11/pybind11.h>
 
 #include "filter/paper/any_filter.h"
+#include "tools/recording/recording.h"
 
 namespace lcs::python {
 
-/// The filter's result for one frame. Immutable, because NumPy arrays are views of it.
+/// A detector's result for one frame. Immutable, because NumPy arrays are views of it.
 struct Result {
   FrameResult said;
-  double filter_ms = 0;  ///< duration of the filter's step
+  double step_ms = 0;  ///< duration of the detector's step
+  bench::DetectorInfo detector = {};
+  double bench::FrameTimes::*step_time = &bench::FrameTimes::filter_ms;  ///< null: none
+  bool wants_signatures = true;
+  bench::SquareMasks masks = {};
 };
 
 void bind_filter(pybind11::module_& module);

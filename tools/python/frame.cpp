@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <unistd.h>
 
 #include <limits>
 #include <map>
-#include <mutex>
-#include <opencv2/core/utility.hpp>
 #include <utility>
 
 #include "filter/detect/picture_noise.h"
 #include "filter/ego_motion/intake.h"
 #include "tools/python/arrays.h"
+#include "tools/python/guard.h"
 #include "tools/python/type.h"
 #include "tools/recording/box.h"
 #include "tools/recording/warnings.h"
@@ -20,42 +18,6 @@
 
 namespace lcs::python {
 namespace {
-
-/// Whether this process was forked after a simulation. Software GL would then wait forever for its
-/// threads, which a fork does not copy.
-bool is_fork() {
-  static const pid_t first = ::getpid();
-  return ::getpid() != first;
-}
-
-void require_no_fork() {
-  if (!is_fork()) return;
-  throw std::runtime_error(
-      "this process was forked from one that has simulated, and software GL does not live on in "
-      "it; start processes by multiprocessing's \"spawn\", or simulate in these alone");
-}
-
-/// Restricts OpenCV to one thread while any instance exists, as in the program. Restores the number
-/// of threads afterwards for a `cv2` in the same process.
-class OneThread {
- public:
-  OneThread() {
-    const std::lock_guard lock(mutex_);
-    if (count_++ > 0) return;
-    before_ = cv::getNumThreads();
-    cv::setNumThreads(0);
-  }
-  ~OneThread() {
-    const std::lock_guard lock(mutex_);
-    if (--count_ == 0) cv::setNumThreads(before_);
-  }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  static inline std::mutex mutex_;
-  static inline int count_ = 0, before_ = 0;
-};
 
 // ---- Motion
 
@@ -439,7 +401,7 @@ void Simulation::require_own_thread() const {
 std::shared_ptr<Frame> Simulation::next() {
   require_no_fork();
   require_own_thread();
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  check_signals();
   if (!source_) return nullptr;
   auto frame = std::make_shared<Frame>();
   bool is_over = true;

@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 
 #include "tools/input/message.h"
+#include "tools/python/bench.h"
+#include "tools/python/detector.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/scenario.h"
@@ -78,5 +80,10 @@ PYBIND11_MODULE(_core, module) {
   python::bind_frame(module);
   python::bind_filter(module);
   python::bind_scorer(module);
+  python::bind_detector(module);
+  python::bind_bench(module);
+  for (const auto& [name, value] : pybind11::cast<pybind11::dict>(module.attr("__dict__"))) {
+    if (PyCFunction_Check(value.ptr())) value.attr("__module__") = "lcs";  // as the classes
+  }
   python::freeze_classes(module);
 }

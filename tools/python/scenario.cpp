@@ -170,8 +170,6 @@ void bind_scenario(py::module_& module) {
         return fmt::format("<lcs.Scenario {}: {} frames, seed {}>", s.full.name, s.full.frames,
                            s.full.seed);
       });
-  module.def("_use_scenes", &scenario::set_shipped_scenes,
-             "Where the project's own scenes are, in place of the source tree's.");
 }
 
 }  // namespace lcs::python

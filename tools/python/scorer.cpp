@@ -176,17 +176,25 @@ void note(const Detections& detections, const Frame& frame, bench::FrameRecord& 
 class Scorer {
  public:
   void add(const Frame& frame, const py::object& said) {
-    const bool is_filter = py::isinstance<Result>(said);
-    if (!is_filter && !py::isinstance<Detections>(said)) {
+    const bool is_result = py::isinstance<Result>(said);
+    if (!is_result && !py::isinstance<Detections>(said)) {
       return add(frame,
                  py::cast(detections_of(said, py::none(), py::none(), py::none(), py::none())));
     }
-    require_next(frame, is_filter);
+    const bench::DetectorInfo detector =
+        is_result ? said.cast<const Result&>().detector
+                  : bench::DetectorInfo{.name = "python", .layered = false};
+    require_next(frame, detector);
     bench::FrameRecord record = frame.seen.record;
-    if (is_filter) {
+    if (is_result) {
       const auto& result = said.cast<const Result&>();
       require_all_corners(frame, result.said.verdicts.size());
-      bench::note(result.said, &bench::FrameTimes::filter_ms, result.filter_ms, record);
+      if (!result.wants_signatures) {  // as in a run of its own
+        record.signatures = {};
+        if (record.times) record.times->describe_ms = 0;
+      }
+      bench::note(result.said, result.step_time, result.step_ms, record);
+      record.masks = result.masks;
     } else {
       const auto& detections = said.cast<const Detections&>();
       record.times.reset();
@@ -201,7 +209,7 @@ class Scorer {
     if (!run_) {
       run_ = frame.run;
       recording_ = run_->recording;
-      recording_.detector = {.name = is_filter ? "lcs" : "python", .layered = is_filter};
+      recording_.detector = detector;
     }
     recording_.frames.push_back(std::move(record));
   }
@@ -220,7 +228,7 @@ class Scorer {
   }
 
  private:
-  void require_next(const Frame& frame, bool is_filter) const {
+  void require_next(const Frame& frame, const bench::DetectorInfo& detector) const {
     if (run_ && run_ != frame.run) {
       throw py::value_error("this frame is of another run; give each run a Scorer of its own");
     }
@@ -230,10 +238,11 @@ class Scorer {
       throw py::value_error(fmt::format(
           "frame {} comes where frame {} is due; give all frames in order", index, due));
     }
-    if (run_ && recording_.detector.layered != is_filter) {
-      throw py::value_error(
-          "some frames have a Result of the filter and others something else; give each detector a "
-          "Scorer of its own");
+    if (run_ && recording_.detector.name != detector.name) {
+      throw py::value_error(fmt::format(
+          "some frames have a result of {} and this one has one of {}; give each detector a Scorer "
+          "of its own",
+          recording_.detector.name, detector.name));
     }
   }
 
@@ -278,7 +287,8 @@ void bind_scorer(py::module_& module) {
             scorer.add(frame, said);
           },
           py::arg("frame"), py::arg("said"),
-          "said: a Result of the filter, Detections, or N bool, which of the frame's corners are "
+          "said: a Result of the filter or of a Detector, Detections, or N bool, which of the "
+          "frame's corners are "
           "rebels.\n"
           "Frames come in order, each once, from the first on; what raises counts for nothing.\n"
           "Raises ValueError for what is not in the camera's picture "

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "scenarios/shipped.h"
 #include "tools/process/child.h"
 
 namespace lcs::suite {
@@ -74,8 +75,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     throw std::system_error(errno, std::generic_category(),
                             "no process can be started (memfd_create)");
   try {
-    // Unlike the program's path, a rebuild does not replace this.
-    pid_ = process::start_child("/proc/self/exe", command, {.err = err_},
+    pid_ = process::start_child(scenario::program().c_str(), command, {.err = err_},
                                 {.when_parent_ends = SIGTERM});
   } catch (const std::system_error&) {
     ::close(err_);

@@ -77,8 +77,7 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
   std::vector<std::string> command = run_of(planned, seed, first.detector, first.is_own, options);
   command.insert(command.end(),
                  {"--out", (first.folder / folder_of(planned, seed)).string(), "--no-video",
-                  "--quiet", "--gzip", "--keep",
-                  std::string(bench::kKeepWords.at(static_cast<std::size_t>(options.keep)))});
+                  "--quiet", "--gzip", "--keep", std::string(word_of(options.keep))});
   if (options.keep != bench::Keep::figures) command.emplace_back("--events");
   for (std::size_t i = 1; i < options.watchers.size(); ++i) {
     const SuiteWatcher& other = options.watchers[i];

@@ -1,4 +1,4 @@
-"""Test bench for the Line-Circle-Square filter: sequences with their truth, the filter, scores.
+"""Test bench for the Line-Circle-Square filter: sequences with their truth, the filter, comparators, scores, suites.
 
     import lcs
 
@@ -16,6 +16,7 @@ Pixels have (0, 0) at the centre of the top-left one; all else is in SI units an
 from __future__ import annotations
 
 from collections.abc import Iterable as _Iterable
+from os import PathLike as _PathLike
 from pathlib import Path as _Path
 from typing import Optional as _Optional, Union as _Union
 
@@ -25,6 +26,7 @@ from . import _core
 from ._core import (
     Camera,
     Detections,
+    Detector,
     Error,
     Filter,
     Frame,
@@ -38,12 +40,24 @@ from ._core import (
     Truth,
     Verdict,
     __version__,
+    compare,
+    detectors,
+    generate,
+    kinematics,
+    merge,
+    replay,
+    run,
+    suite,
+    tune,
+    world,
+    worlds,
 )
 
 __all__ = [
     "SCENARIOS",
     "Camera",
     "Detections",
+    "Detector",
     "Error",
     "Filter",
     "Frame",
@@ -57,15 +71,26 @@ __all__ = [
     "Truth",
     "Verdict",
     "__version__",
+    "compare",
+    "detectors",
+    "generate",
+    "kinematics",
+    "merge",
+    "replay",
+    "run",
     "score",
     "simulate",
+    "suite",
+    "tune",
+    "world",
+    "worlds",
 ]
 
-_folder = _Path(__file__).parent
-_core._use_scenes(_folder / "scenes")
+# The program runs suites in processes of its own, and knows where the scenes are.
+_core._use_program(_Path(__file__).parent / "bin" / "lcs")
 
 #: Folder of the project's own scenarios, as `lcs.SCENARIOS / "suite" / "night.yaml"`.
-SCENARIOS: _Path = _folder / "scenarios"
+SCENARIOS: _Path = _Path(_core._shipped_folder("scenarios"))
 
 
 def simulate(scenario: Scenario) -> Simulation:
@@ -78,14 +103,21 @@ def simulate(scenario: Scenario) -> Simulation:
 
 
 def score(
-    said: _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]],
+    said: _Union[
+        str, _PathLike[str], _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]]
+    ],
+    *,
+    detections: _Union[str, _PathLike[str]] = "",
 ) -> dict[str, _Optional[float]]:
     """The figures of metrics.json, by name; None where undefined.
 
-    said: pairs of a Frame and what a detector says of it: a Result of the filter, Detections, or
-    N bool, which of frame.corners are rebels. All frames of one run, in order.
+    said: pairs of a Frame and what a detector says of it: a Result, Detections, or N bool, which of
+    frame.corners are rebels. All frames of one run, in order. Or the folder of a stored run;
+    detections: then a CSV file of another detector (tools/recording/DETECTIONS.md).
     """
+    if isinstance(said, (str, _PathLike)):
+        return _core._score_files(said, detections)
     scorer = Scorer()
-    for frame, detections in said:
-        scorer.add(frame, detections)
+    for frame, detected in said:
+        scorer.add(frame, detected)
     return scorer.metrics()

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lcs::tools {
+namespace lcs::app {
 
 /// The versions of this program and of the libraries that affect results. Starts GL to query it.
 /// \throws std::runtime_error if GL does not start.
@@ -20,4 +20,4 @@ std::string program_text();
 /// The SHA-256 of the running program's file.
 std::string program_sha256();
 
-}  // namespace lcs::tools
+}  // namespace lcs::app

@@ -1,15 +1,16 @@
-#include "tools/lcs/version.h"
+#include "tools/app/version.h"
 
 #include <fmt/format.h>
 
 #include <opencv2/core/utility.hpp>
 
+#include "scenarios/shipped.h"
 #include "sim/simulation.h"
+#include "tools/app/commit.h"
 #include "tools/files/sha256.h"
 #include "tools/input/input_file.h"
-#include "tools/lcs/commit.h"
 
-namespace lcs::tools {
+namespace lcs::app {
 
 std::string version_text() {
   const sim::Versions versions = sim::versions();
@@ -27,11 +28,11 @@ std::string version_line() {
 
 std::string program_sha256() {
   constexpr input::FileKind kProgram{input::kGibibyte, "install the program again"};
-  return bench::sha256(input::read_file("/proc/self/exe", kProgram));  // also after a rebuild
+  return bench::sha256(input::read_file(scenario::program(), kProgram));
 }
 
 std::string program_text() {
   return fmt::format("{} ({})", LCS_VERSION, LCS_COMMIT);
 }
 
-}  // namespace lcs::tools
+}  // namespace lcs::app

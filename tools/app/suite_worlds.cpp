@@ -1,4 +1,4 @@
-#include "tools/lcs/suite_worlds.h"
+#include "tools/app/suite_worlds.h"
 
 #include <fmt/format.h>
 
@@ -6,29 +6,27 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "scenarios/load.h"
 #include "sim/pictures/picture_file.h"
+#include "tools/app/world.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
-#include "tools/lcs/interrupt.h"
-#include "tools/lcs/options.h"
-#include "tools/lcs/terminal.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
-#include "tools/suite/summary.h"
+#include "tools/suite/pattern.h"
 #include "tools/worlds/sheet.h"
 #include "tools/worlds/worlds.h"
 
-namespace lcs::tools {
+namespace lcs::app {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kFolder = "out/worlds";
-constexpr int kMostWorlds = 100'000;
 
 /// Pictures and truth of a run's sampled frames; absent if the run has no pictures.
 std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
@@ -46,7 +44,7 @@ std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_
 }
 
 void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
-                 const suite::ScenarioResult& scenario) {
+                 const suite::ScenarioResult& scenario, Caller& caller) {
   constexpr int kQuality = 85, kColumns = 4;
   // Always of the world's own seed, so that the parts of a suite have the pictures of the whole.
   const suite::RunResult& run = scenario.runs.front();
@@ -59,7 +57,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
   try {
     above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
   } catch (const input::Error& error) {  // keep the runs without this picture
-    warn({error.what()});
+    caller.warn({error.what()});
   }
   const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
   bench::write_file(folder / report::sheet_path(scenario),
@@ -68,35 +66,26 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
 
 }  // namespace
 
-CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options) {
-  CLI::Option* split = command
-                           .add_option("--worlds", options.split,
-                                       "Run worlds in place of scenario files: those of the split "
-                                       "train, validate or test")
-                           ->type_name("SPLIT");
-  add_integer_option(command, "--count", options.count, "How many worlds; 60 if not given", 1,
-                     kMostWorlds)
-      ->type_name("N")
-      ->needs(split);
-  command.add_option("--family", options.family, "Only worlds of this family")
-      ->type_name("NAME")
-      ->needs(split);
-  return split;
-}
-
-std::vector<worlds::Kept> chosen_worlds(const WorldsOptions& options) {
-  std::vector<worlds::Choice> choices =
-      worlds::choose(options.split, options.count, options.family);
+std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::string& filter) {
+  const suite::Pattern wanted(filter, "--filter", "^room");
+  std::vector<worlds::Choice> choices = worlds::choose(choice.split, choice.count, choice.family);
   std::stable_sort(choices.begin(), choices.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });
   std::vector<worlds::Kept> chosen;
-  for (const worlds::Choice& choice : choices) {
-    chosen.push_back({choice, worlds::kept_world(kFolder, choice)});
+  for (const worlds::Choice& one : choices) {
+    const fs::path file = worlds::kept_world(kFolder, one);
+    if (wanted.is_in(file.stem().string())) chosen.push_back({one, file});
   }
+  if (chosen.empty()) throw std::runtime_error("no world fits --filter; its names are as room_7");
   return chosen;
 }
 
-void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs) {
+std::size_t jobs_at_once(int jobs) {
+  return jobs > 0 ? static_cast<std::size_t>(jobs)
+                  : std::max(1U, std::thread::hardware_concurrency());
+}
+
+void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Caller& caller) {
   std::vector<std::vector<std::string>> commands;
   for (const auto& [choice, file] : chosen) {
     const fs::path world = file.parent_path();
@@ -107,8 +96,9 @@ void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs) {
           "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
     }
     fs::create_directories(world.parent_path());
-    commands.push_back({"world", choice.family, "--seed", std::to_string(choice.seed), "--out",
-                        world.string(), "--quiet"});
+    commands.push_back(arguments_of(
+        WorldRequest{.family = choice.family, .seed = choice.seed, .out = world.string()}));
+    commands.back().emplace_back("--quiet");
   }
   suite::run_all(
       commands, jobs,
@@ -117,7 +107,7 @@ void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs) {
           throw std::runtime_error(suite::complaint_of(exit));
         }
       },
-      [&](const std::vector<std::size_t>&) { check_interrupted(); });
+      [&](const std::vector<std::size_t>&) { caller.check(); });
 }
 
 void add_origins(suite::SuiteResult& result) {
@@ -132,23 +122,13 @@ void add_origins(suite::SuiteResult& result) {
   }
 }
 
-std::string told_of_worlds(const suite::SuiteResult& result) {
-  const std::int64_t again = suite::drawn_again(result);
-  std::string text =
-      fmt::format("{} {} drawn again\n", again, again == 1 ? "world was" : "worlds were");
-  if (result.split == "test") {
-    text += fmt::format("The split test is {}\n", worlds::split(result.split).purpose);
-  }
-  return text;
-}
-
 void write_sheets(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan,
-                  const suite::SuiteResult& result) {
+                  const suite::SuiteResult& result, Caller& caller) {
   fs::create_directories(folder / report::kSheetsFolder);
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    check_interrupted();
-    write_sheet(folder, plan[i], result.scenarios[i]);
+    caller.check();
+    write_sheet(folder, plan[i], result.scenarios[i], caller);
   }
 }
 
-}  // namespace lcs::tools
+}  // namespace lcs::app

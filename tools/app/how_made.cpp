@@ -1,4 +1,4 @@
-#include "tools/lcs/how_made.h"
+#include "tools/app/how_made.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -8,27 +8,30 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "tools/app/version.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
-#include "tools/lcs/terminal.h"
-#include "tools/lcs/version.h"
 #include "tools/output/result.h"
 
-namespace lcs::tools {
+namespace lcs::app {
 namespace {
 
-const std::time_t kStart = std::time(nullptr);
-const auto kStartClock = std::chrono::steady_clock::now();
+/// The start of the request: of the process, unless `note_start` was called.
+struct Start {
+  std::time_t date = std::time(nullptr);
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  std::clock_t cpu = std::clock();
+};
+Start start;
 
 }  // namespace
 
-std::vector<std::string>& command_line() {
-  static std::vector<std::string> line;
-  return line;
+void note_start() {
+  start = {};
 }
 
 void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
-                 std::size_t count) {
+                 std::size_t count, Caller& caller) {
   std::size_t before = 0;
   try {
     // Not as an input of this command, which may replace it.
@@ -41,7 +44,7 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   if (before <= count) return;
   const std::string text = fmt::format("{} holds a result of {} {}, and this one has {}",
                                        folder.string(), before, what, count);
-  if (is_named) return warn({text + ", which will replace it"});
+  if (is_named) return caller.warn({text + ", which will replace it"});
   throw bench::OutputError(text + "; name a place by --out, or remove that folder");
 }
 
@@ -53,13 +56,13 @@ void write_how_made(const std::filesystem::path& folder, const std::string& comm
   if (!versions.mujoco.empty()) json["mujoco"] = versions.mujoco;
   if (!versions.gl_renderer.empty()) json["renderer"] = versions.gl_renderer;
   json["opencv"] = cv::getVersionString();
-  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(kStart));
+  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start.date));
   json["wall_s"] =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - kStartClock).count();
-  json["cpu_s"] = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start.wall).count();
+  json["cpu_s"] = static_cast<double>(std::clock() - start.cpu) / CLOCKS_PER_SEC;
   bench::write_file(
       folder / bench::kHowMadeFile,
       json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
 }
 
-}  // namespace lcs::tools
+}  // namespace lcs::app

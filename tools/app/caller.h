@@ -1,0 +1,46 @@
+/// \file
+/// What the functions of this library tell their caller while they work, and ask of it.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lcs::app {
+
+/// The user has ended the work.
+class Interrupted : public std::runtime_error {
+ public:
+  explicit Interrupted(const std::string& what = "interrupted; nothing was written")
+      : std::runtime_error(what) {}
+};
+
+/// The progress of a piece of work, until it is destroyed.
+class Progress {
+ public:
+  virtual ~Progress() = default;
+  /// \param done number of units that are processed.
+  virtual void show(int /*done*/) {}
+};
+
+/// The defaults do nothing.
+class Caller {
+ public:
+  virtual ~Caller() = default;
+  /// Called between two frames or runs. It may throw, Interrupted or another exception, to end the
+  /// work: then the function writes nothing, except where its documentation says otherwise.
+  virtual void check() {}
+  /// A message, such as a missed criterion.
+  virtual void tell(const std::string& /*line*/) {}
+  /// A message of little weight, which a quiet program leaves out.
+  virtual void note(const std::string& /*line*/) {}
+  virtual void warn(const std::vector<std::string>& /*lines*/) {}
+  /// \param total number of units to process. \param unit its plural, such as "frames".
+  virtual std::unique_ptr<Progress> progress(const std::string& /*name*/, int /*total*/,
+                                             const std::string& /*unit*/) {
+    return std::make_unique<Progress>();
+  }
+};
+
+}  // namespace lcs::app

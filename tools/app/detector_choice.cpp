@@ -1,0 +1,21 @@
+#include "tools/app/detector_choice.h"
+
+#include <fmt/format.h>
+
+namespace lcs::app {
+
+std::vector<std::string> arguments_of(const DetectorChoice& choice) {
+  if (choice.command.empty()) return {};
+  return {"--detector-command", choice.command, "--detector-timeout",
+          fmt::format("{} s", choice.timeout_s)};
+}
+
+comparators::DetectorSpec spec_of(const DetectorChoice& choice) {
+  if (!choice.command.empty()) {
+    return comparators::spec_of_program(choice.name, {choice.command, choice.timeout_s});
+  }
+  if (!choice.detections.empty()) return comparators::spec_of_file(choice.name, choice.detections);
+  return comparators::spec_of(choice.name.empty() ? "lcs" : choice.name);
+}
+
+}  // namespace lcs::app

@@ -1,0 +1,25 @@
+/// \file
+/// The detector that a request names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/comparators/detectors.h"
+
+namespace lcs::app {
+
+struct DetectorChoice {
+  std::string name;     ///< "": lcs, or a default name for a program or file
+  std::string command;  ///< of a detector program; "": no program
+  double timeout_s = comparators::Program{}.timeout_s;
+  std::string detections;  ///< CSV file or folder; "": none
+};
+
+/// The options that select the same detector program in a child process; empty for other detectors.
+std::vector<std::string> arguments_of(const DetectorChoice& choice);
+
+/// \throws std::invalid_argument as the `comparators::spec_of` functions do.
+comparators::DetectorSpec spec_of(const DetectorChoice& choice);
+
+}  // namespace lcs::app

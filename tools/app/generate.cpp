@@ -1,0 +1,179 @@
+#include "tools/app/generate.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "scenarios/load.h"
+#include "scenarios/scenes.h"
+#include "sim/simulation.h"
+#include "tools/app/version.h"
+#include "tools/bench/detector.h"
+#include "tools/files/csv.h"
+#include "tools/files/output.h"
+#include "tools/recording/warnings.h"
+#include "tools/sequence/generator.h"
+#include "tools/sequence/manifest.h"
+#include "tools/sequence/writer.h"
+#include "tools/suite/child_process.h"
+#include "tools/suite/shard.h"
+
+namespace lcs::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path target_of(const GenerateRequest& request, const scenario::Scenario& scenario) {
+  if (!request.out.empty()) return request.out;
+  return fs::path("data") / scenario.name;
+}
+
+scenario::Scenario load(const GenerateRequest& request) {
+  scenario::Scenario scenario =
+      scenario::load(request.paths.front(), {.sets = request.sets, .seed = request.seed});
+  sim::require_scene(scenario);
+  if (request.frames > 0) scenario.frames = std::min(scenario.frames, request.frames);
+  return scenario;
+}
+
+/// The requested formats in the order of the table, without duplicates.
+std::vector<std::string> formats_of(const GenerateRequest& request) {
+  for (const std::string& name : request.formats) sequence::format(name);
+  std::vector<std::string> names;
+  for (const sequence::Format& format : sequence::formats()) {
+    const bool is_asked = std::count(request.formats.begin(), request.formats.end(), format.name);
+    if (request.formats.empty() || is_asked) names.emplace_back(format.name);
+  }
+  return names;
+}
+
+void check_complete(const fs::path& folder) {
+  const std::vector<std::string> damaged = sequence::damage(folder);
+  if (!damaged.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: {}{}; remove the folder to make it anew", folder.string(), damaged.front(),
+        damaged.size() > 1 ? fmt::format(", and {} more files", damaged.size() - 1) : ""));
+  }
+}
+
+/// Makes the parts of one sequence in child processes, one part for each job.
+/// \throws std::runtime_error if a process fails.
+void share_frames(const GenerateRequest& request, const sequence::Journal& journal,
+                  const std::function<void(int)>& show, Caller& caller) {
+  std::vector<std::vector<std::string>> commands;
+  for (int i = 1; i <= request.jobs; ++i) {
+    commands.push_back(sequence_command(request, request.paths.front(), journal.folder().string()));
+    commands.back().insert(commands.back().end(),
+                           {"--shard", fmt::format("{}/{}", i, request.jobs)});
+  }
+  int shown = 0;
+  suite::run_all(
+      commands, static_cast<std::size_t>(request.jobs),
+      [&](std::size_t place, const suite::Exit& exit) {
+        // Only the process of the last part simulates the world to its end.
+        if (place + 1 == commands.size()) caller.warn(suite::warnings_of(exit));
+        if (exit.code != 0 || exit.signal != 0) {
+          throw std::runtime_error(suite::complaint_of(exit));
+        }
+      },
+      [&](const std::vector<std::size_t>&) {
+        const int recorded = journal.recorded();
+        while (shown < recorded) show(++shown);
+        show(shown);
+      });
+}
+
+/// Waits for the folder's lock, so that only one process assembles the sequence.
+void wait_for_turn(const fs::path& folder, std::optional<bench::FolderLock>& turn, Caller& caller) {
+  for (bool is_told = false;; is_told = true) {
+    turn.emplace(folder);
+    if (!turn->is_of_another()) return;
+    if (!is_told) {
+      caller.tell(fmt::format("{}: another process makes this sequence; waiting until it has ended",
+                              folder.string()));
+    }
+    caller.check();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> sequence_command(const GenerateRequest& request,
+                                          const std::string& scenario, const std::string& out) {
+  std::vector<std::string> command{"generate", scenario, "--out", out, "--quiet"};
+  const auto add = [&](const char* name, const std::string& value) {
+    command.insert(command.end(), {name, value});
+  };
+  if (!request.formats.empty())
+    add("--formats", fmt::format("{}", fmt::join(request.formats, ",")));
+  if (request.frames > 0) add("--frames", std::to_string(request.frames));
+  if (request.seed) add("--seed", std::to_string(*request.seed));
+  for (const std::string& set : request.sets) add("--set", set);
+  return command;
+}
+
+Generated generate(const GenerateRequest& request, Caller& caller) {
+  if (request.paths.size() != 1) {
+    throw std::invalid_argument("give one scenario, --suite or --worlds; see lcs generate --help");
+  }
+  if (request.jobs > 1 && !request.shard.empty()) {
+    throw std::invalid_argument(
+        "--jobs shares the frames of a scenario, and so does --shard; give one of them");
+  }
+  scenario::Scenario scenario = load(request);
+  bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
+  const sequence::GenerateOptions what{formats_of(request), request.sets, program_text()};
+  const bool is_part = !request.shard.empty();
+  const auto [part, parts] = is_part ? suite::shard_of(request.shard) : suite::Shard{};
+  const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
+  const std::string plan = sequence::plan_of(scenario, what);
+  std::optional<bench::FolderLock> turn;
+  sequence::Journal journal(target_of(request, scenario), plan, [&](const fs::path& folder) {
+    if (!is_part) wait_for_turn(folder, turn, caller);
+  });
+  Generated made{.folder = journal.folder(), .range = range, .notes = {}};
+  if (journal.is_complete()) {
+    check_complete(journal.folder());
+    made.state = Generated::State::complete_before;
+  } else {
+    if (request.jobs == 1) {  // otherwise the child processes print it
+      caller.warn(scenario::shadowed_files(scenario));
+    }
+    bench::Recording seen;  // only its warnings are used
+    const int frames = range.last - range.first;
+    int whole = 0;
+    try {
+      const auto progress = caller.progress(scenario.name, std::max(frames, 1), "frames");
+      const auto show = [&](int done) {
+        whole = done;
+        if (done > 0) progress->show(done);
+        caller.check();
+      };
+      if (request.jobs > 1) share_frames(request, journal, show, caller);
+      seen.warnings = sequence::generate_frames(scenario, what, journal, range, show);
+    } catch (const Interrupted&) {
+      throw Interrupted(
+          fmt::format("interrupted; {} of {} frames are whole, and the same command goes on from "
+                      "there",
+                      whole, frames));
+    }
+    caller.warn(bench::lines_of(bench::warnings_of(seen)));
+    if (is_part) {
+      made.state = Generated::State::part;
+    } else {
+      made.notes = sequence::finish_sequence(scenario, what, plan, journal);
+    }
+  }
+  made.scenario = std::move(scenario);
+  return made;
+}
+
+}  // namespace lcs::app

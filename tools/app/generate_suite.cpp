@@ -1,0 +1,109 @@
+// The sequences of a suite: makes every sequence in its own process.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+
+#include "tools/app/generate.h"
+#include "tools/suite/child_process.h"
+#include "tools/suite/plan.h"
+#include "tools/suite/shard.h"
+
+namespace lcs::app {
+namespace {
+
+struct PlannedSequence {
+  std::string name;  ///< name of its folder
+  std::vector<std::string> command;
+};
+
+/// Draws the worlds of a shard. \return their scenario files.
+std::vector<std::filesystem::path> draw_part(const GenerateRequest& request,
+                                             const suite::Shard& shard, Caller& caller) {
+  std::vector<worlds::Kept> chosen = chosen_worlds(request.worlds, request.filter);
+  if (static_cast<std::size_t>(shard.parts) > chosen.size()) {
+    throw std::invalid_argument(fmt::format(
+        "--shard {}: there are only {} worlds; make fewer parts", request.shard, chosen.size()));
+  }
+  int place = 0;
+  std::erase_if(chosen, [&](const auto&) { return place++ % shard.parts != shard.part - 1; });
+  draw_worlds(chosen, jobs_at_once(request.jobs), caller);
+  std::vector<std::filesystem::path> files;
+  for (const worlds::Kept& one : chosen) files.push_back(one.file);
+  return files;
+}
+
+/// The sequences of this shard. Adds an error for each broken scenario.
+std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, SequencesMade& made,
+                                            Caller& caller) {
+  suite::Shard shard = request.shard.empty() ? suite::Shard{} : suite::shard_of(request.shard);
+  std::vector<std::filesystem::path> paths(request.paths.begin(), request.paths.end());
+  if (!request.worlds.split.empty()) {
+    paths = draw_part(request, shard, caller);
+    shard = {};
+  }
+  const std::filesystem::path folder = request.out.empty() ? "data" : request.out;
+  std::vector<PlannedSequence> mine;
+  std::size_t place = 0;
+  for (const suite::PlannedScenario& planned : suite::plan({.paths = paths,
+                                               .group = request.group,
+                                               .filter = request.filter,
+                                               .sets = request.sets,
+                                               .seeds = request.seeds})) {
+    if (!planned.scenario) {
+      caller.tell("error: " + planned.error);
+      made.errors.push_back(planned.error);
+      continue;
+    }
+    for (const std::uint64_t seed : planned.seeds) {
+      // Round robin balances the shards: neighbouring sequences have similar lengths.
+      if (static_cast<int>(place++ % static_cast<std::size_t>(shard.parts)) != shard.part - 1)
+        continue;
+      GenerateRequest one = request;
+      one.sets = planned.sets;
+      one.seed = seed;
+      const std::string name = fmt::format("{}-seed{}", planned.name, seed);
+      made.folders.push_back(folder / name);
+      mine.push_back(
+          {name, sequence_command(one, planned.file.string(), (folder / name).string())});
+    }
+  }
+  return mine;
+}
+
+}  // namespace
+
+SequencesMade generate_suite(const GenerateRequest& request, Caller& caller) {
+  SequencesMade made;
+  const std::vector<PlannedSequence> sequences = plan_sequences(request, made, caller);
+  std::vector<std::vector<std::string>> commands;
+  for (const PlannedSequence& sequence : sequences) commands.push_back(sequence.command);
+  std::size_t done = 0;
+  try {
+    suite::run_all(
+        commands, static_cast<std::size_t>(request.jobs),
+        [&](std::size_t place, const suite::Exit& exit) {
+          ++done;
+          const std::string& name = sequences[place].name;
+          for (const std::string& line : suite::warnings_of(exit)) {
+            caller.warn({fmt::format("{}: {}", name, line)});
+          }
+          if (exit.code != 0 || exit.signal != 0) {
+            made.errors.push_back(fmt::format("{}: {}", name, suite::complaint_of(exit)));
+            caller.tell("error: " + made.errors.back());
+          } else {
+            caller.note(
+                fmt::format("[{}/{}] {}: {:.1f} s", done, sequences.size(), name, exit.wall_s));
+          }
+        },
+        [&](const std::vector<std::size_t>&) { caller.check(); });
+  } catch (const Interrupted&) {
+    throw Interrupted(fmt::format(
+        "interrupted; {} of {} sequences are whole, and the same command goes on from there", done,
+        sequences.size()));
+  }
+  return made;
+}
+
+}  // namespace lcs::app

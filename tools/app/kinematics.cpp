@@ -1,0 +1,63 @@
+#include "tools/app/kinematics.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scenarios/load.h"
+#include "scenarios/scenes.h"
+#include "scenarios/shipped.h"
+#include "tools/app/command_line.h"
+#include "tools/app/how_made.h"
+#include "tools/files/output.h"
+#include "tools/kinematics/study.h"
+#include "tools/kinematics/study_files.h"
+#include "tools/output/result.h"
+#include "tools/suite/suite_run.h"
+
+namespace lcs::app {
+
+std::vector<std::string> arguments_of(const KinematicsRequest& request) {
+  CommandLine line({"kinematics"});
+  line.add("--config", request.config);
+  line.add_each("--set", request.sets);
+  line.add("--tolerance", fmt::format("{}", request.tolerance_px));
+  line.add_flag("--quick", request.quick);
+  line.add("--out", request.out);
+  return line.words();
+}
+
+KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
+  const std::filesystem::path file = request.config.empty()
+                                         ? scenario::shipped_folder("scenarios") / "crossing.yaml"
+                                         : std::filesystem::path(request.config);
+  kinematics::StudyConfig config = kinematics::configure(
+      scenario::load(file, {.sets = request.sets, .seed = {}}),
+      request.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
+  config.tolerance_px = request.tolerance_px;
+  caller.warn(scenario::shadowed_files(config.scenario));
+  bench::ResultNames names = kinematics::study_files();
+  names.push_back(bench::kHowMadeFile);
+  bench::Output folder(request.out, names);
+  const auto study = [&] {
+    const auto progress =
+        caller.progress("kinematics", kinematics::study_pieces(config), "experiments");
+    int done = 0;
+    return kinematics::carry_out(config, [&](int more) {
+      caller.check();
+      progress->show(done += more);
+    });
+  }();
+  kinematics::write_study(folder.staging(), study);
+  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)), sim::versions(),
+                 {{"scenario", config.scenario.name},
+                  {"seed", config.scenario.seed},
+                  {"settings", request.sets}});
+  caller.check();
+  folder.commit();
+  std::vector<kinematics::Statement> answer = kinematics::answer(study);
+  std::string text = kinematics::text_of(config, answer);
+  return {std::move(answer), std::move(text), folder.target()};
+}
+
+}  // namespace lcs::app

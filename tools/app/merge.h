@@ -1,0 +1,23 @@
+/// \file
+/// Joins the parts of a suite that were made with `SuiteRequest::shard`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/app/suite_end.h"
+
+namespace lcs::app {
+
+struct MergeRequest {
+  std::vector<std::string> parts;  ///< folders
+  SuitePlace place;
+};
+
+/// The command line that makes the same request, without `lcs`.
+std::vector<std::string> arguments_of(const MergeRequest& request);
+
+/// \throws bench::OutputError, std::exception; then nothing is written.
+SuiteMade merge(const MergeRequest& request, Caller& caller);
+
+}  // namespace lcs::app

@@ -1,0 +1,169 @@
+#include "tools/app/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenarios/load.h"
+#include "tools/app/command_line.h"
+#include "tools/files/csv.h"
+#include "tools/files/output.h"
+#include "tools/input/document.h"
+
+namespace lcs::app {
+namespace {
+
+namespace fs = std::filesystem;
+using input::Value;
+
+constexpr std::string_view kTopics = "topics.";
+
+Value scalar(const std::string& flag, const std::string& text) {
+  return {Value::Kind::scalar, {flag, 0}, text};
+}
+
+Value list_of(const std::string& flag, const std::string& text) {
+  Value list(Value::Kind::list, {flag, 0});
+  for (const std::string_view item : bench::fields_of(text)) {
+    list.items.push_back(scalar(flag, std::string(item)));
+  }
+  return list;
+}
+
+/// Sets a key of the map: replaces its value or appends a new entry.
+void put(Value& map, const std::string& key, Value value) {
+  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
+                                  [&](const input::Entry& entry) { return entry.key == key; });
+  if (found != map.entries.end()) {
+    found->value = std::move(value);
+  } else {
+    const input::Source where = value.where;
+    map.entries.push_back({key, where, std::move(value)});
+  }
+}
+
+Value recording_of(const ReplayRequest& request) {
+  Value recording(Value::Kind::map, {request.path, 0}), topics(Value::Kind::map, {request.path, 0});
+  put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, request.path});
+  for (const auto& [key, text] : request.recording) {
+    const std::string flag = flag_of(key);
+    if (key == "equidistant") {
+      Value fisheye(Value::Kind::map, {flag, 0});
+      put(fisheye, key, list_of(flag, text));
+      put(recording, "distortion", std::move(fisheye));
+    } else if (key.starts_with(kTopics)) {
+      put(topics, key.substr(kTopics.size()), scalar(flag, text));
+    } else {
+      const bool is_list = key == "centre" || key == "mount" || key == "distortion";
+      put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
+    }
+  }
+  if (!topics.entries.empty()) put(recording, "topics", std::move(topics));
+  return recording;
+}
+
+Value filter_of(const ReplayRequest& request) {
+  Value filter(Value::Kind::map, {"--set", 0});
+  if (!request.preset.empty()) {
+    put(filter, "preset", scalar("--preset " + request.preset, request.preset));
+  }
+  for (const std::string& setting : request.sets) {
+    const auto [key, value] = key_and_value(setting);
+    put(filter, key, scalar("--set " + setting, value));
+  }
+  return filter;
+}
+
+/// The options as a scenario document.
+Value document_of(const ReplayRequest& request) {
+  Value root(Value::Kind::map, {"lcs replay", 0});
+  put(root, "recording", recording_of(request));
+  if (!request.ego_motion.empty()) {
+    put(root, "ego_motion", scalar("--ego-motion", request.ego_motion));
+  }
+  if (!request.fast_threshold.empty()) {
+    Value corners(Value::Kind::map, {"--fast-threshold", 0});
+    put(corners, "threshold", scalar("--fast-threshold", request.fast_threshold));
+    put(root, "corners", std::move(corners));
+  }
+  Value filter = filter_of(request);
+  if (!filter.entries.empty()) put(root, "filter", std::move(filter));
+  return root;
+}
+
+/// The name of the recording's folder, or of its video without the extension.
+std::string name_of(const fs::path& path) {
+  // A path with a trailing slash has an empty filename.
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path last = whole.has_filename() ? whole : whole.parent_path();
+  return (fs::is_directory(last) ? last.filename() : last.stem()).string();
+}
+
+/// Makes all paths absolute, because a scenario's paths are relative to its file.
+void make_absolute(Value& recording) {
+  for (input::Entry& entry : recording.entries) {
+    for (const char* key : {"path", "times", "poses", "imu", "odometry", "calibration",
+                            "imu_calibration", "mask", "labels"}) {
+      if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
+    }
+  }
+}
+
+}  // namespace
+
+std::string flag_of(const std::string& key) {
+  std::string flag = "--" + key;
+  if (key.starts_with(kTopics)) {
+    flag = "--" + key.substr(kTopics.size()) + (key.ends_with("world") ? "-frame" : "-topic");
+  }
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
+}
+
+std::vector<std::string> arguments_of(const ReplayRequest& request) {
+  app::CommandLine line({"replay", request.path});
+  for (const auto& [key, text] : request.recording) {
+    if (key == kNothingMoves) {
+      line.add_flag("--nothing-moves", true);
+    } else {
+      line.add(flag_of(key).c_str(), text);
+    }
+  }
+  line.add("--ego-motion", request.ego_motion);
+  line.add("--fast-threshold", request.fast_threshold);
+  line.add("--detector", request.detector.name);
+  line.add(arguments_of(request.detector));
+  line.add("--preset", request.preset);
+  line.add_each("--set", request.sets);
+  line.add_each("--beside", request.beside);
+  line.add("--out", request.out);
+  return line.words();
+}
+
+void write_scenario(const ReplayRequest& request, const fs::path& path,
+                    bench::Overwrite overwrite) {
+  Value document = document_of(request);
+  scenario::load(document, "");  // throws for wrong values
+  bench::Output file(path, overwrite);
+  for (input::Entry& entry : document.entries) {
+    if (entry.key == "recording") make_absolute(entry.value);
+  }
+  bench::write_file(file.staging(), input::yaml_text(document) + "\n");
+  file.commit();
+}
+
+RunMade replay(const ReplayRequest& request, Caller& caller) {
+  scenario::Scenario scenario = scenario::load(document_of(request), "");
+  scenario.name = request.out.empty() ? name_of(request.path) : name_of(request.out);
+  RunRequest run;
+  run.out = request.out;
+  run.detector = request.detector;
+  run.beside = request.beside;
+  run.no_video = request.no_video;
+  run.events = request.events;
+  run.command = arguments_of(request);
+  return run_scenario(run, std::move(scenario), caller);
+}
+
+}  // namespace lcs::app

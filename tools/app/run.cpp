@@ -1,0 +1,316 @@
+#include "tools/app/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "scenarios/load.h"
+#include "scenarios/scenes.h"
+#include "sim/simulation.h"
+#include "tools/app/command_line.h"
+#include "tools/app/how_made.h"
+#include "tools/app/version.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/detector.h"
+#include "tools/bench/earlier_run.h"
+#include "tools/comparators/detectors.h"
+#include "tools/output/result.h"
+#include "tools/recording/warnings.h"
+#include "tools/replay/playback.h"
+#include "tools/report/report_page.h"
+#include "tools/scoring/criteria.h"
+#include "tools/scoring/metrics.h"
+#include "tools/suite/suite_run.h"
+
+namespace lcs::app {
+namespace {
+
+std::filesystem::path target_of(const RunRequest& request, const scenario::Scenario& scenario) {
+  if (!request.out.empty()) return request.out;
+  return std::filesystem::path("out") / scenario.name;
+}
+
+Intrinsics camera_of(const scenario::Scenario& scenario) {
+  const scenario::Camera& camera = scenario.camera;
+  return bench::intrinsics(
+      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
+}
+
+/// The source of the frames that the detectors process.
+struct Frames {
+  Intrinsics camera;
+  bench::Recording recording;                 ///< without frames
+  sim::Versions versions = {};                ///< empty if nothing is simulated
+  const bench::Recording* earlier = nullptr;  ///< the earlier run's recording; null: none
+  const bench::FramePictures* pictures = nullptr;
+  std::vector<std::string> missing = {};  ///< warnings about data that the earlier run lacks
+  std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
+};
+
+Frames simulated(const scenario::Scenario& scenario) {
+  const auto simulation = std::make_shared<sim::Simulation>(scenario);
+  return {.camera = bench::intrinsics(simulation->calibration().camera),
+          .recording = bench::begin_recording(scenario, *simulation),
+          .versions = simulation->versions(),
+          .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
+            return bench::run(scenario, *simulation, watchers);
+          }};
+}
+
+Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
+  return {.camera = bench::intrinsics(playback.camera()),
+          .recording = playback.begin(),
+          .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
+            return bench::run(playback, FastDetector(scenario.fast_threshold), watchers);
+          }};
+}
+
+Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
+                const Intrinsics& camera) {
+  const auto earlier = std::make_shared<bench::EarlierRun>(request.recorded, scenario, camera);
+  const bool is_program = !request.detector.command.empty();
+  const bool with_images = !request.no_video || request.view || is_program;
+  if (is_program && !earlier->pictures()) {
+    throw std::invalid_argument(
+        fmt::format("{} has no pictures to hand to {}; record it with --events", request.recorded,
+                    spec_of(request.detector).name));
+  }
+  if (with_images && !earlier->pictures()) {
+    throw std::invalid_argument(
+        fmt::format("{} has no pictures to make a video of; give --no-video without --view, or "
+                    "record it with --events",
+                    request.recorded));
+  }
+  std::vector<std::string> missing;
+  if (earlier->lacks_signatures()) {
+    missing.push_back(
+        fmt::format("{} has no signatures of its corners, so that the filter goes by their places "
+                    "alone; leave out --recorded to have them made",
+                    request.recorded));
+  }
+  if (earlier->lacks_gaps()) {
+    missing.push_back(fmt::format(
+        "{} does not say what the filter saw below circles, so that bodies that approach "
+        "at constant speed are not found; leave out --recorded to have it looked at",
+        request.recorded));
+  }
+  return {.camera = camera,
+          .recording = earlier->begin(),
+          .earlier = &earlier->recording(),
+          .pictures = earlier->pictures(),
+          .missing = std::move(missing),
+          .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
+            std::vector<Diagnostics> all;
+            for (const bench::Watcher& watcher : watchers) {
+              all.push_back(
+                  earlier->run(watcher.detector, watcher.recording, with_images, watcher.sink));
+            }
+            return all;
+          }};
+}
+
+/// A detector of this run and the destination of its results.
+struct Watching {
+  comparators::DetectorSpec spec;
+  std::filesystem::path target;
+  scenario::Scenario scenario;  ///< with this detector's preset applied
+  std::vector<std::string> settings_without_effect = {};
+  std::unique_ptr<bench::Detector> detector = {};
+  bench::Recording recording = {};
+  std::unique_ptr<bench::Result> result = {};
+};
+
+/// The run's own detector, then those of `--beside`.
+std::vector<Watching> watching(const RunRequest& request, const scenario::Scenario& scenario) {
+  std::vector<Watching> all;
+  all.push_back({spec_of(request.detector), target_of(request, scenario), scenario});
+  for (const std::string& beside : request.beside) {
+    const std::size_t equals = beside.find('=');
+    if (equals == std::string::npos || equals + 1 == beside.size()) {
+      throw std::invalid_argument(fmt::format(
+          "--beside {}: give a detector and the folder for its results, as klt=out/klt", beside));
+    }
+    all.push_back(
+        {comparators::spec_of(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
+  }
+  for (Watching& one : all) {
+    // Throws if the filter's settings are wrong, also for detectors that ignore them.
+    one.settings_without_effect = comparators::apply_preset(one.spec, one.scenario);
+    if (!request.recorded.empty()) comparators::require_corners_suffice(one.spec);
+  }
+  return all;
+}
+
+/// The command that repeats the run of one of the detectors, without its place.
+std::string command_of(const RunRequest& request, const scenario::Scenario& scenario,
+                       const Watching& watching, bool is_own) {
+  if (!request.command.empty()) return suite::shell_line(request.command);
+  CommandLine line({"run", request.scenario, "--seed", std::to_string(scenario.seed)});
+  line.add_each("--set", request.sets);
+  line.add("--frames", request.frames);
+  if (watching.spec.name != "lcs") line.add("--detector", watching.spec.name);
+  line.add("--recorded", request.recorded);
+  if (is_own) {
+    line.add("--detections", request.detector.detections);
+    line.add(arguments_of(request.detector));
+  }
+  return suite::shell_line(line.words());
+}
+
+/// Writes run.json.
+void write_how_made(const RunRequest& request, const scenario::Scenario& scenario,
+                    const Frames& frames, const Watching& watching, bool is_own) {
+  app::write_how_made(watching.result->output().staging(),
+                      command_of(request, scenario, watching, is_own), frames.versions,
+                      {{"scenario", scenario.name},
+                       {"seed", scenario.seed},
+                       {"frames", watching.recording.frames.size()},
+                       {"detector", watching.spec.name},
+                       {"settings", request.sets},
+                       {"recorded", request.recorded}});
+}
+
+/// Writes the report page of the run as a suite with a single run.
+void write_page(const RunRequest& request, const scenario::Scenario& scenario, const Watching& own,
+                const std::filesystem::path& folder, const bench::Metrics& metrics) {
+  suite::RunResult run{.seed = scenario.seed,
+                       .outcome = suite::Outcome::passed,
+                       .command = command_of(request, scenario, own, true),
+                       .error = {},
+                       .metrics = metrics,
+                       .criteria = {},
+                       .warnings = bench::warnings_of(own.recording),
+                       .folder = "."};
+  suite::judge_run(bench::asked_of(own.spec.name, true, scenario.criteria), run);
+  suite::SuiteResult suite{.detector = own.spec.name,
+                           .sets = request.sets,
+                           .version = version_line(),
+                           .recorded = request.recorded,
+                           .scenarios = {}};
+  if (!request.frames.empty()) suite.sets.push_back("frames=" + request.frames);
+  suite.scenarios.push_back({.name = scenario.name,
+                             .purpose = scenario.purpose,
+                             .file = request.scenario,
+                             .groups = scenario.groups,
+                             .point = {},
+                             .runs = {run}});
+  report::write_run_report(folder / report::kReportFile, {suite, folder});
+}
+
+}  // namespace
+
+RunMade run(const RunRequest& request, Caller& caller) {
+  std::vector<std::string> sets = request.sets;
+  if (!request.frames.empty()) sets.push_back("frames=" + request.frames);
+  return run_scenario(
+      request, scenario::load(request.scenario, {.sets = sets, .seed = request.seed}), caller);
+}
+
+RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Caller& caller) {
+  // Validate the whole request before any output is begun.
+  std::optional<replay::Playback> playback;
+  if (scenario.recording) scenario = playback.emplace(scenario).scenario();
+  std::vector<Watching> all = watching(request, scenario);
+  Watching& own = all.front();
+  bench::require_known_metrics(scenario.criteria);
+  const Frames frames = [&] {
+    if (!request.recorded.empty()) {
+      return recorded(request, scenario,
+                      playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
+    }
+    return playback ? played(scenario, *playback) : simulated(scenario);
+  }();
+  for (Watching& one : all) {
+    if (scenario.frames > 0) {
+      note_longer(one.target, &one != &own || !request.out.empty(), "frames",
+                  static_cast<std::size_t>(scenario.frames), caller);
+    }
+    one.detector = comparators::make(one.spec, {.camera = frames.camera,
+                                                .scenario = one.scenario,
+                                                .recorded = frames.earlier,
+                                                .on_wait = [&] { caller.check(); }});
+    one.recording = frames.recording;
+    one.recording.detector = {one.spec.name, one.spec.detector.layered,
+                              one.detector->gives_circles()};
+    one.recording.camera = frames.camera;
+  }
+  for (Watching& one : all) {
+    bench::ResultOptions what;
+    what.keep = request.keep;
+    what.compressed = request.gzip;
+    what.truth_of_other = &one != &own;
+    if (&one == &own) {
+      if (!request.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
+      if (request.view) what.show = request.view(scenario);
+      what.events = request.events || request.report;
+      if (request.report) {
+        what.add_page = [&](const std::filesystem::path& folder, const bench::Metrics& figures) {
+          write_page(request, scenario, own, folder, figures);
+        };
+      }
+      what.kept = frames.pictures;
+    }
+    one.result = std::make_unique<bench::Result>(
+        one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
+  }
+  caller.warn(scenario::shadowed_files(scenario));
+  caller.warn(own.settings_without_effect);
+  std::set<std::string> names;
+  for (const Watching& one : all) names.insert(one.spec.name);
+  caller.warn(bench::not_asked(scenario.criteria, names));
+  caller.warn(bench::not_judged(scenario.criteria));
+  caller.warn(frames.missing);
+  std::vector<Diagnostics> diagnostics;
+  {
+    const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
+    std::vector<bench::Watcher> watchers;
+    for (Watching& one : all) {
+      watchers.push_back({*one.detector, one.recording,
+                          [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+                            caller.check();
+                            one.result->add(frame, image);
+                            progress->show(frame.index + 1);
+                          }});
+    }
+    diagnostics = frames.run(watchers);
+  }
+  caller.check();
+  std::vector<bench::Metrics> metrics;
+  std::vector<bench::Output*> outputs;
+  for (Watching& one : all) {
+    metrics.push_back(one.result->finish(one.recording));
+    if (&one != &own) one.result->share_truth(*own.result);
+    write_how_made(request, scenario, frames, one, &one == &own);
+    outputs.push_back(&one.result->output());
+  }
+  caller.check();
+  bench::commit_all(outputs);
+
+  caller.warn(bench::lines_of(bench::warnings_of(own.recording)));
+  if (playback && request.recorded.empty()) {
+    for (const std::string& line : playback->told()) caller.tell(line);
+  }
+  for (const std::string& line : diagnostics.front().lines()) caller.tell(line);
+  for (const std::string& line : own.detector->told()) caller.tell(line);
+  RunMade made;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto asked = bench::asked_of(all[i].spec.name, i == 0, scenario.criteria);
+    made.detectors.push_back({.name = all[i].spec.name,
+                              .criteria = bench::judge(asked, metrics[i]),
+                              .metrics = std::move(metrics[i]),
+                              .folder = all[i].result->output().target()});
+  }
+  if (playback) made.pictures_skipped = playback->skipped();
+  made.scenario = std::move(scenario);
+  return made;
+}
+
+}  // namespace lcs::app

@@ -1,0 +1,33 @@
+/// \file
+/// Computes figures from the files of a run or suite, for its own or another detector.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/app/caller.h"
+#include "tools/files/output.h"
+#include "tools/scoring/scoring.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::app {
+
+struct ScoreRequest {
+  std::string sequence = {};          ///< folder of a run, or of a suite
+  std::string detections = {};        ///< CSV file; "": score the run's own detector
+  std::string out = {};               ///< file for the figures; "": none
+  std::string write_detections = {};  ///< CSV file for the verdicts; "": none
+  bench::Overwrite overwrite = bench::Overwrite::own_or_forced;
+};
+
+/// The figures of a run; of a suite only `suite` is set.
+struct Scored {
+  bench::Recording recording = {};
+  bench::Metrics metrics = {};
+  std::optional<suite::SuiteResult> suite = {};  ///< with the figures of all runs anew
+};
+
+/// \throws input::Error, bench::OutputError, std::exception; then nothing is written.
+Scored score(const ScoreRequest& request, Caller& caller);
+
+}  // namespace lcs::app

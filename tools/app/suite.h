@@ -1,0 +1,68 @@
+/// \file
+/// Runs many scenarios with several seeds each, in parallel, and sums them up.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/app/caller.h"
+#include "tools/app/detector_choice.h"
+#include "tools/app/suite_end.h"
+#include "tools/app/suite_worlds.h"
+#include "tools/output/result.h"
+#include "tools/suite/plan.h"
+#include "tools/suite/suite_run.h"
+
+namespace lcs::app {
+
+struct SuiteRequest {
+  std::vector<std::string> paths;    ///< scenario files and folders; empty: the project's own
+  std::optional<std::string> group;  ///< absent: all for named paths, else `short`
+  std::string filter;                ///< regular expression that names must match
+  int jobs = 0;                      ///< concurrent runs; 0: one per processor
+  std::optional<int> seeds;          ///< per scenario; absent: 3, for worlds 1
+  WorldsChoice worlds;               ///< worlds to run instead of scenario files
+  DetectorChoice detector;
+  std::vector<std::string> sets;    ///< "key=value"
+  std::vector<std::string> beside;  ///< further detectors on the same frames
+  std::string recorded;             ///< earlier suite's folder, for its frames; "": simulate
+  bench::Keep keep = bench::Keep::all;
+  std::string shard;  ///< "2/5": only the second of five parts; "": all
+  std::string times;  ///< earlier suite whose durations balance the parts; "": none
+  bool anew = false;  ///< drop the runs of an unfinished suite
+  SuitePlace place;
+};
+
+/// The command line that makes the same request, without `lcs`.
+std::vector<std::string> arguments_of(const SuiteRequest& request);
+
+/// The planned runs, and of which whole they are a part.
+struct SuitePlan {
+  std::vector<suite::PlannedScenario> plan;
+  std::optional<suite::PartOf> part_of;
+};
+
+/// The runs of a request. Missing worlds are drawn first. \throws as `suite::plan`.
+SuitePlan plan_suite(const SuiteRequest& request, Caller& caller);
+
+/// What a caller may show of a suite while it runs. The defaults do nothing.
+class SuiteWatch {
+ public:
+  virtual ~SuiteWatch() = default;
+  /// \param detectors names, the suite's own first. \param runs the result of each detector.
+  virtual void finished(const suite::SuiteProgress& /*progress*/, const std::string& /*scenario*/,
+                        const std::vector<std::string>& /*detectors*/,
+                        std::span<const suite::RunResult* const> /*runs*/) {}
+  virtual void show(const suite::SuiteProgress& /*progress*/) {}
+  /// Removes the displayed progress.
+  virtual void wipe() {}
+};
+
+/// \throws bench::OutputError, std::exception, and an exception of `caller.check`; then no suite is
+///   written, and an earlier suite is unchanged. Finished runs are kept, and the same request goes
+///   on from there.
+SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch);
+
+}  // namespace lcs::app

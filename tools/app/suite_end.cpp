@@ -1,0 +1,70 @@
+#include "tools/app/suite_end.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "tools/files/output_file.h"
+#include "tools/report/report_page.h"
+#include "tools/report/worlds_page.h"
+#include "tools/suite/beside_table.h"
+#include "tools/suite/comparison.h"
+#include "tools/suite/junit.h"
+#include "tools/worlds/worlds.h"
+
+namespace lcs::app {
+namespace fs = std::filesystem;
+
+std::optional<suite::SuiteResult> baseline_of(const SuitePlace& place) {
+  if (place.baseline.empty()) return std::nullopt;
+  return suite::read_suite(place.baseline);
+}
+
+fs::path part_of(const std::string& detector, const std::string& own) {
+  return detector == own ? fs::path() : fs::path("beside") / detector;
+}
+
+SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::SuiteResult result,
+                       std::vector<suite::SuiteResult> others,
+                       const std::optional<suite::SuiteResult>& baseline, Caller& caller) {
+  for (const suite::SuiteResult& other : others) {
+    suite::write_suite(
+        folder.staging() / part_of(other.detector, result.detector) / suite::kSuiteFile, other);
+  }
+  suite::write_suite(folder.staging() / suite::kSuiteFile, result);
+  suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
+  if (!others.empty()) {
+    bench::write_file(folder.staging() / suite::kStandingFile,
+                      suite::standing_table(result, others));
+  }
+  const suite::SuiteInFolder made{result, folder.staging()};
+  std::optional<suite::SuiteInFolder> before;
+  std::optional<suite::Comparison> comparison;
+  if (baseline) {
+    before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(place.baseline)});
+    comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
+  }
+  const suite::SuiteInFolder* beside = before ? &*before : nullptr;
+  const suite::Verdict verdict =
+      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr, others);
+  std::optional<report::Against> against;
+  if (before) against.emplace(report::Against{*before, *comparison});
+  report::write_report(folder.staging() / report::kReportFile, made, verdict,
+                       against ? &*against : nullptr);
+  if (!result.split.empty()) {
+    const worlds::Split& split = worlds::split(result.split);
+    report::write_worlds_page(folder.staging(),
+                              fmt::format("The split {} is {}.", split.name, split.purpose), result,
+                              others);
+  }
+  caller.check();
+  folder.commit();
+
+  return {.result = std::move(result),
+          .others = std::move(others),
+          .comparison = std::move(comparison),
+          .verdict = verdict,
+          .folder = folder.target()};
+}
+
+}  // namespace lcs::app

@@ -1,0 +1,49 @@
+/// \file
+/// The end of a suite: its files. `app::suite` and `app::merge` share it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/app/caller.h"
+#include "tools/files/output.h"
+#include "tools/suite/comparison.h"
+#include "tools/suite/suite_result.h"
+#include "tools/suite/verdict.h"
+
+namespace lcs::app {
+
+struct SuitePlace {
+  static constexpr const char* kDefault = "out/suite";
+  std::string out = kDefault;  ///< folder
+  std::string baseline;        ///< suite.json or its folder; "": none
+
+  bool is_named() const { return out != kDefault; }
+};
+
+/// A suite that is written.
+struct SuiteMade {
+  suite::SuiteResult result;
+  std::vector<suite::SuiteResult> others;       ///< of the detectors of `beside`
+  std::optional<suite::Comparison> comparison;  ///< with the baseline, if there is one
+  suite::Verdict verdict;
+  std::filesystem::path folder;
+};
+
+/// The baseline of a place. \throws std::runtime_error if it cannot be read.
+std::optional<suite::SuiteResult> baseline_of(const SuitePlace& place);
+
+/// The folder of a detector's results, relative to the suite's folder.
+std::filesystem::path part_of(const std::string& detector, const std::string& own);
+
+/// Writes suite.json, junit.xml, the report and so on, and commits the folder.
+/// \param folder has the runs, and for worlds their pictures.
+/// \param others the results of the detectors of `beside`.
+/// \throws bench::OutputError, std::runtime_error
+SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::SuiteResult result,
+                       std::vector<suite::SuiteResult> others,
+                       const std::optional<suite::SuiteResult>& baseline, Caller& caller);
+
+}  // namespace lcs::app

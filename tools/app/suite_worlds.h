@@ -1,0 +1,46 @@
+/// \file
+/// The worlds that a command runs. Missing worlds are drawn first.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/app/caller.h"
+#include "tools/suite/plan.h"
+#include "tools/suite/suite_result.h"
+#include "tools/worlds/worlds.h"
+
+namespace lcs::app {
+
+/// Worlds of a split.
+struct WorldsChoice {
+  std::string split = {};  ///< train, validate or test; "": no worlds
+  int count = 60;
+  std::string family = {};  ///< "": all families
+};
+
+/// The chosen worlds, ordered by family, without drawing them.
+/// \param filter regular expression that a part of the name matches; "": any.
+/// \throws std::invalid_argument for an unknown split or family; std::runtime_error for an invalid
+///   filter and if no world fits.
+std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::string& filter);
+
+/// The number of jobs; for 0 that of the processors.
+std::size_t jobs_at_once(int jobs);
+
+/// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.
+/// \throws bench::OutputError for a world that was edited, std::runtime_error.
+void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Caller& caller);
+
+/// Adds to `result` how each world was drawn, from the worlds' scenario files.
+void add_origins(suite::SuiteResult& result);
+
+/// Writes worlds/ into the folder of a suite: a picture of each world, from its first run.
+/// \param plan the plan that `result` came from, in the same order.
+/// \throws bench::OutputError; std::runtime_error if a run's files cannot be read.
+void write_sheets(const std::filesystem::path& folder,
+                  const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
+                  Caller& caller);
+
+}  // namespace lcs::app

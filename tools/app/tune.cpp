@@ -1,0 +1,179 @@
+#include "tools/app/tune.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "tools/app/command_line.h"
+#include "tools/app/version.h"
+#include "tools/bench/detector.h"
+#include "tools/files/output.h"
+#include "tools/files/sha256.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
+#include "tools/suite/suite_result.h"
+#include "tools/tune/journal.h"
+#include "tools/tune/record.h"
+#include "tools/tune/search.h"
+#include "tools/tune/trials.h"
+
+namespace lcs::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Joins the user's texts into one line; "none" if empty.
+std::string line_of(const std::vector<std::string>& texts) {
+  std::string line;
+  for (const std::string& text : texts) {
+    if (!line.empty()) line += ' ';
+    line += input::one_line(text);
+  }
+  return line.empty() ? "none" : line;
+}
+
+/// For example "out/train, 60 runs, corridor_1 to yard_10".
+std::string about(std::vector<std::string> names, const tune::Trials& trials) {
+  for (std::string& name : names)
+    name = (suite::folder_of(name) / "").lexically_normal().parent_path();
+  std::string first = trials.runs().front().scenario, last = first;
+  for (const bench::Recording& run : trials.runs()) {
+    first = std::min(first, run.scenario);
+    last = std::max(last, run.scenario);
+  }
+  return fmt::format("{}, {} runs, {} to {}", line_of(names), trials.runs().size(),
+                     input::one_line(first), input::one_line(last));
+}
+
+/// The default parameters with these settings applied.
+Parameters start_of(const std::vector<std::string>& sets) {
+  scenario::Scenario settings;
+  for (const std::string& setting : sets) {
+    const auto [key, value] = key_and_value(setting);
+    settings.filter.push_back({key, value, {"--set " + setting, 0}});
+  }
+  return std::get<Parameters>(bench::filter_parameters(settings));
+}
+
+/// \throws std::invalid_argument if two paths lead to the same suite.
+void require_different(const TuneRequest& request) {
+  std::map<fs::path, std::string> known;  // path as given, by canonical folder
+  for (const auto* suites : {&request.suites, &request.validate}) {
+    for (const std::string& name : *suites) {
+      const fs::path folder = fs::weakly_canonical(suite::folder_of(fs::absolute(name)));
+      const auto [place, is_new] = known.try_emplace(folder, name);
+      if (is_new) continue;
+      throw std::invalid_argument(
+          fmt::format("{} and {} are one suite; name each suite once", place->second, name));
+    }
+  }
+}
+
+/// The facts that determine the figures of a journal.
+std::vector<tune::Fact> facts_of(const TuneRequest& request, const tune::Trials& trials,
+                                 const tune::SearchOptions& search) {
+  std::vector<tune::Fact> facts{
+      {"program", fmt::format("{}, SHA-256 {}", program_text(), program_sha256())},
+      {"recordings", fmt::format("SHA-256 {}", trials.digest())},
+      {"suites", about(request.suites, trials)},
+      {"settings", line_of(request.sets)}};
+  for (tune::Fact& fact : tune::facts_of(search)) facts.push_back(std::move(fact));
+  return facts;
+}
+
+std::vector<std::string> learnt_keys() {
+  std::vector<std::string> keys;
+  for (const ParameterInfo& info : describe(Parameters{})) {
+    if (info.learnt) keys.push_back(info.key);
+  }
+  return keys;
+}
+
+/// Adds the learnt parameters that were not searched, with their start values.
+tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
+  for (const ParameterInfo& info : describe(start)) {
+    const auto is_it = [&](const tune::Setting& setting) { return setting.key == info.key; };
+    if (info.learnt && std::ranges::none_of(found.after, is_it)) {
+      found.after.push_back({info.key, info.value});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> arguments_of(const TuneRequest& request) {
+  CommandLine line({"tune"});
+  line.add(request.suites);
+  line.add("--validate", fmt::format("{}", fmt::join(request.validate, ",")));
+  line.add("--keys", fmt::format("{}", fmt::join(request.keys, ",")));
+  line.add_each("--set", request.sets);
+  line.add("--evaluations", std::to_string(request.evaluations));
+  line.add("--seed", std::to_string(request.seed));
+  return line.words();
+}
+
+TuneMade tune(const TuneRequest& request, Caller& caller) {
+  const auto check = [&] { caller.check(); };
+  const Parameters start = start_of(request.sets);
+  const std::vector<std::string> keys = request.keys.empty() ? learnt_keys() : request.keys;
+  const tune::SearchOptions search_options{tune::axes_of(start, keys), request.evaluations,
+                                           request.seed};
+  require_different(request);
+  const tune::Trials trials(request.suites);
+  std::optional<tune::Trials> others;
+  if (!request.validate.empty()) others.emplace(request.validate);
+
+  const fs::path out = bench::output_path(request.out);
+  fs::create_directories(out);
+  const bench::FolderLock lock(out);
+  if (!lock.is_held()) {
+    throw std::runtime_error(
+        fmt::format("{} {}; choose another folder with --out", out.string(),
+                    lock.is_of_another() ? "is in use by another lcs tune" : "cannot be locked"));
+  }
+  tune::Journal journal(out / tune::kJournalFile, facts_of(request, trials, search_options), keys);
+  bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
+  bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
+  tune::Found found;
+  try {
+    const auto progress = caller.progress("tune", request.evaluations, "evaluations");
+    found = tune::search(
+        start, search_options,
+        [&](const Parameters& parameters) { return trials.worth(parameters, check); }, journal,
+        [&](int done) { progress->show(done); });
+  } catch (const Interrupted&) {
+    throw Interrupted(
+        fmt::format("interrupted; what was tried is in {}, and the same command goes on",
+                    (out / tune::kJournalFile).string()));
+  }
+  std::vector<tune::Stated> stated{
+      {about(request.suites, trials), found.worth_before, found.worth_after}};
+  if (others) {
+    Parameters best = start;
+    for (const tune::Setting& setting : found.after) set(best, setting.key, setting.value);
+    stated.push_back({about(request.validate, *others), others->worth(start, check),
+                      others->worth(best, check)});
+  }
+  caller.check();
+  const tune::Circumstances circumstances{
+      fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
+      arguments_of(request)};
+  std::string record = tune::record_text(found, stated, circumstances);
+  bench::write_file(preset_file.staging(),
+                    tune::preset_text(with_other_learnt(found, start), circumstances));
+  bench::write_file(record_file.staging(), record);
+  bench::commit_all(std::array{&preset_file, &record_file});
+  return {std::move(found), std::move(stated), std::move(record), out};
+}
+
+}  // namespace lcs::app

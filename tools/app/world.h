@@ -1,0 +1,35 @@
+/// \file
+/// Draws a scenario and its scene at random from a seed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/app/caller.h"
+#include "tools/worlds/worlds.h"
+
+namespace lcs::app {
+
+struct WorldRequest {
+  std::string family;
+  std::uint64_t seed = 1;
+  std::string out;            ///< folder; "": out/worlds/FAMILY_SEED
+  std::string pictures = {};  ///< folder of pictures for textures; "": none
+  bool sheet = false;
+};
+
+/// The command line that makes the same request, without `lcs`.
+std::vector<std::string> arguments_of(const WorldRequest& request);
+
+/// A world that is written, and its folder.
+struct WorldMade {
+  worlds::World world;
+  std::filesystem::path folder;
+};
+
+/// \throws bench::OutputError, std::exception; then no world is written.
+WorldMade world(const WorldRequest& request, Caller& caller);
+
+}  // namespace lcs::app

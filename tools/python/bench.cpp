@@ -1,0 +1,598 @@
+#include "tools/python/bench.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "scenarios/shipped.h"
+#include "tools/app/command_line.h"
+#include "tools/app/compare.h"
+#include "tools/app/generate.h"
+#include "tools/app/how_made.h"
+#include "tools/app/kinematics.h"
+#include "tools/app/merge.h"
+#include "tools/app/replay.h"
+#include "tools/app/score.h"
+#include "tools/app/suite.h"
+#include "tools/app/tune.h"
+#include "tools/app/world.h"
+#include "tools/input/inputs_read.h"
+#include "tools/python/guard.h"
+#include "tools/python/scenario.h"
+#include "tools/suite/beside_table.h"
+#include "tools/suite/suite_table.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+using namespace py::literals;
+
+using Texts = std::vector<std::string>;
+
+/// Calls a Python function, if there is one, with the numbers of finished and of all units.
+class Counter : public app::Progress {
+ public:
+  Counter(py::object function, int total) : function_(std::move(function)), total_(total) {}
+  ~Counter() override {
+    const py::gil_scoped_acquire interpreter;
+    function_ = {};
+  }
+  Counter(const Counter&) = delete;
+  Counter& operator=(const Counter&) = delete;
+
+  void show(int done) override {
+    check_signals();
+    const py::gil_scoped_acquire interpreter;
+    if (!function_.is_none()) function_(done, total_);
+  }
+
+ private:
+  py::object function_;
+  int total_;
+};
+
+/// Collects messages for Python, and ends the work after Ctrl-C.
+class PythonCaller : public app::Caller, public app::SuiteWatch {
+ public:
+  explicit PythonCaller(py::object progress = py::none()) : progress_(std::move(progress)) {}
+
+  void check() override {
+    constexpr std::chrono::milliseconds kPeriod(50);
+    {
+      const std::lock_guard lock(mutex_);
+      const auto now = std::chrono::steady_clock::now();
+      if (now - checked_ < kPeriod) return;
+      checked_ = now;
+    }
+    check_signals();
+  }
+  void tell(const std::string& line) override {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(line);
+  }
+  void warn(const Texts& lines) override {
+    const std::lock_guard lock(mutex_);
+    warnings_.insert(warnings_.end(), lines.begin(), lines.end());
+  }
+  std::unique_ptr<app::Progress> progress(const std::string&, int total,
+                                          const std::string&) override {
+    const py::gil_scoped_acquire interpreter;
+    return std::make_unique<Counter>(progress_, total);
+  }
+  void finished(const suite::SuiteProgress& progress, const std::string&, const Texts&,
+                std::span<const suite::RunResult* const>) override {
+    const py::gil_scoped_acquire interpreter;
+    if (!progress_.is_none()) progress_(progress.done, progress.total);
+  }
+
+  /// Issues the warnings. \return the other messages.
+  Texts messages() {
+    python::warn(std::exchange(warnings_, {}));
+    return messages_;
+  }
+
+ private:
+  py::object progress_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point checked_{};
+  Texts messages_, warnings_;
+};
+
+/// Does the work while other Python threads run.
+template <class Work>
+auto carry_out(const Work& work) {
+  require_no_fork();
+  app::note_start();
+  input::forget_inputs();  // an earlier call's inputs may be this one's outputs
+  const py::gil_scoped_release others_may_run;
+  const OneThread one_thread;
+  return work();
+}
+
+std::string path_of(const py::handle& path) {
+  return py::cast<std::string>(py::module_::import("os").attr("fspath")(path));
+}
+
+/// The texts of one path, or of several; none for None.
+Texts paths_of(const py::object& paths) {
+  if (paths.is_none()) return {};
+  if (py::isinstance<py::str>(paths) || py::hasattr(paths, "__fspath__")) return {path_of(paths)};
+  Texts all;
+  for (const py::handle path : paths) all.push_back(path_of(path));
+  return all;
+}
+
+py::dict dict_of(const bench::Metrics& metrics) {
+  py::dict figures;
+  for (const auto& [name, figure] : metrics) figures[name.c_str()] = figure;
+  return figures;
+}
+
+py::list list_of(const std::vector<bench::JudgedCriterion>& criteria) {
+  py::list list;
+  for (const bench::JudgedCriterion& one : criteria) {
+    list.append(py::dict("metric"_a = one.metric, "min"_a = one.min, "max"_a = one.max,
+                         "value"_a = one.value, "required"_a = one.required, "met"_a = one.met,
+                         "over"_a = one.over, "message"_a = one.message));
+  }
+  return list;
+}
+
+const char* word_of(suite::Outcome outcome) {
+  switch (outcome) {
+    case suite::Outcome::passed:
+      return "passed";
+    case suite::Outcome::failed:
+      return "failed";
+    case suite::Outcome::error:
+      return "error";
+  }
+  return "error";
+}
+
+/// Adds a row for each run of a suite. \param folder of the detector's results.
+void add_runs(const suite::SuiteResult& suite, const fs::path& folder, py::list& rows) {
+  for (const suite::ScenarioResult& scenario : suite.scenarios) {
+    for (const suite::RunResult& run : scenario.runs) {
+      rows.append(
+          py::dict("detector"_a = suite.detector, "scenario"_a = scenario.name, "seed"_a = run.seed,
+                   "family"_a = scenario.drawn ? py::cast(scenario.drawn->family) : py::none(),
+                   "outcome"_a = word_of(run.outcome), "error"_a = run.error,
+                   "metrics"_a = dict_of(run.metrics), "criteria"_a = list_of(run.criteria),
+                   "folder"_a = run.folder.empty() ? py::none() : py::cast(folder / run.folder),
+                   "command"_a = run.command));
+    }
+  }
+}
+
+/// Adds a row for each mean in the tables of the program.
+void add_means(const suite::SuiteResult& suite, py::list& rows) {
+  const bool of_worlds = suite::is_of_worlds(suite);
+  for (const std::string& group : suite::groups_of(suite)) {
+    for (const std::string_view metric : suite::tabled_metrics()) {
+      const std::vector<double> figures = suite::figures_of_group(suite, group, metric);
+      if (figures.empty()) continue;
+      const suite::Interval mean = suite::interval_of(figures);
+      rows.append(py::dict("detector"_a = suite.detector, "group"_a = group,
+                           "metric"_a = std::string(metric), "mean"_a = mean.mean,
+                           "half"_a = of_worlds ? mean.half : std::nullopt,
+                           "count"_a = figures.size()));
+    }
+  }
+}
+
+py::list list_of(const std::vector<suite::Difference>& differences, const char* what) {
+  py::list list;
+  for (const suite::Difference& one : differences) {
+    list.append(py::dict(py::arg(what) = one.scenario, "metric"_a = one.metric,
+                         "before"_a = one.before, "after"_a = one.after,
+                         "change"_a = one.change.mean, "half"_a = one.change.half,
+                         "pairs"_a = one.pairs, "verdict"_a = suite::word_of(one.verdict)));
+  }
+  return list;
+}
+
+py::dict dict_of(const suite::Comparison& comparison, const suite::Verdict& verdict) {
+  return py::dict("verdict"_a = verdict.line, "regressed"_a = comparison.has_regressed(),
+                  "means"_a = list_of(comparison.groups, "group"),
+                  "scenarios"_a = list_of(comparison.differences, "scenario"),
+                  "incomparable"_a = comparison.incomparable,
+                  "text"_a = suite::text_of(comparison, false));
+}
+
+py::dict dict_of(const app::SuiteMade& made, PythonCaller& caller) {
+  py::list runs, means;
+  add_runs(made.result, made.folder, runs);
+  add_means(made.result, means);
+  suite::Outcome outcome = suite::outcome_of(made.result);
+  for (const suite::SuiteResult& other : made.others) {
+    add_runs(other, made.folder / app::part_of(other.detector, made.result.detector), runs);
+    add_means(other, means);
+    outcome = std::max(outcome, suite::outcome_of(other));
+  }
+  std::string table = suite::suite_table(made.result, false);
+  if (!made.others.empty()) table += '\n' + suite::beside_table(made.result, made.others);
+  caller.warn(suite::warnings(made.result));
+  return py::dict("folder"_a = made.folder, "outcome"_a = word_of(outcome), "runs"_a = runs,
+                  "means"_a = means, "table"_a = table, "verdict"_a = made.verdict.line,
+                  "comparison"_a = made.comparison
+                                       ? py::object(dict_of(*made.comparison, made.verdict))
+                                       : py::none(),
+                  "messages"_a = caller.messages());
+}
+
+py::dict dict_of(const app::RunMade& made, PythonCaller& caller) {
+  py::dict detectors;
+  for (const app::DetectorMade& one : made.detectors) {
+    detectors[one.name.c_str()] =
+        py::dict("metrics"_a = dict_of(one.metrics), "criteria"_a = list_of(one.criteria),
+                 "folder"_a = one.folder);
+  }
+  return py::dict("scenario"_a = made.scenario.name, "seed"_a = made.scenario.seed,
+                  "detectors"_a = detectors, "messages"_a = caller.messages());
+}
+
+py::dict dict_of(const tune::Worth& worth) {
+  return py::dict("objective"_a = worth.objective(), "f1"_a = worth.f1,
+                  "false_moving"_a = worth.false_moving, "false_static"_a = worth.false_static,
+                  "false_corners"_a = worth.false_corners);
+}
+
+py::dict dict_of(const std::vector<tune::Setting>& settings) {
+  py::dict dict;
+  for (const tune::Setting& setting : settings) dict[setting.key.c_str()] = setting.value;
+  return dict;
+}
+
+app::DetectorChoice detector_of(const std::string& name, const std::string& command, double timeout,
+                                const std::string& detections) {
+  return {name, command, timeout, detections};
+}
+
+const double kTimeout = app::DetectorChoice{}.timeout_s;
+
+void bind_suites(py::module_& module) {
+  module.def(
+      "suite",
+      [](const py::object& paths, const std::string& worlds, int count, const std::string& family,
+         const std::optional<std::string>& group, const std::string& filter,
+         std::optional<int> seeds, int jobs, const std::string& detector,
+         const std::string& command, double timeout, const Texts& beside, const py::object& set,
+         const std::string& recorded, const std::string& detections, const std::string& keep,
+         const std::string& shard, const std::string& times, const fs::path& out,
+         const std::string& baseline, bool anew, const py::object& progress) {
+        app::SuiteRequest request;
+        request.paths = paths_of(paths);
+        if (!worlds.empty() && !request.paths.empty()) {
+          throw py::value_error("there are paths and worlds; give one of them");
+        }
+        request.worlds = {worlds, count, family};
+        request.group = group;
+        request.filter = filter;
+        request.seeds = seeds;
+        request.jobs = jobs;
+        request.detector = detector_of(detector, command, timeout, detections);
+        request.beside = beside;
+        request.sets = assignments_of(set);
+        request.recorded = recorded;
+        request.keep = bench::keep_of(keep);
+        request.shard = shard;
+        request.times = times;
+        request.place = {out.string(), baseline};
+        request.anew = anew;
+        PythonCaller caller(progress);
+        const app::SuiteMade made = carry_out([&] { return app::suite(request, caller, caller); });
+        return dict_of(made, caller);
+      },
+      "paths"_a = py::none(), py::kw_only(), "worlds"_a = "", "count"_a = 60, "family"_a = "",
+      "group"_a = py::none(), "filter"_a = "", "seeds"_a = py::none(), "jobs"_a = 0,
+      "detector"_a = "", "detector_command"_a = "", "detector_timeout"_a = kTimeout,
+      "beside"_a = Texts{}, "set"_a = py::none(), "recorded"_a = "", "detections"_a = "",
+      "keep"_a = "all", "shard"_a = "", "times"_a = "", "out"_a = app::SuitePlace::kDefault,
+      "baseline"_a = "", "anew"_a = false, "progress"_a = py::none(),
+      "Runs many scenarios, each in a process of its own, as lcs suite does with the options of "
+      "these names.\n\n"
+      "paths: scenario files and folders; worlds: in their place a split, train, validate or test, "
+      "of\n"
+      "which count worlds, of one family where given; neither: the project's short scenarios.\n"
+      "seeds: runs of each, 3, of worlds 1. jobs: at a time, as many as processors.\n"
+      "detector, beside: names (detectors()). detector_command: starts a program of yours;\n"
+      "detector_timeout: of its answers, s. set: as in Scenario. recorded: an earlier suite, for "
+      "its frames.\n"
+      "keep: figures, events or all. baseline: an earlier suite. progress: called with the numbers "
+      "of\n"
+      "finished and of all runs.\n\n"
+      "Returns a dict: folder; outcome (passed, failed, error); runs: a dict each, with detector,\n"
+      "scenario, seed, family, outcome, error, metrics (by name), criteria, folder, command; "
+      "means: a\n"
+      "dict for each detector, group and metric of the program's tables, with mean, half (of the "
+      "95 %\n"
+      "interval, of worlds; None where unknown) and count; table: the text that the program "
+      "prints; "
+      "verdict;\n"
+      "comparison with the baseline, as of compare; messages.\n"
+      "Finished runs are kept if it raises or is interrupted, and the same call goes on from "
+      "there.");
+  module.def(
+      "merge",
+      [](const py::object& parts, const fs::path& out, const std::string& baseline) {
+        const app::MergeRequest request{paths_of(parts), {out.string(), baseline}};
+        PythonCaller caller;
+        const app::SuiteMade made = carry_out([&] { return app::merge(request, caller); });
+        return dict_of(made, caller);
+      },
+      "parts"_a, py::kw_only(), "out"_a = app::SuitePlace::kDefault, "baseline"_a = "",
+      "Joins the folders of the parts of a suite (shard). Returns as suite.");
+  module.def(
+      "compare",
+      [](const fs::path& before, const fs::path& after, const std::string& metric) {
+        const auto [old, now, comparison, verdict] =
+            app::compare({before.string(), after.string(), metric});
+        return dict_of(comparison, verdict);
+      },
+      "before"_a, "after"_a, py::kw_only(), "metric"_a = "",
+      "The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).\n\n"
+      "before, after: folders, or their suite.json. metric: a regular expression.\n"
+      "Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, "
+      "with group\n"
+      "or scenario, metric, before, after, change, half (of its 95 % interval; None where "
+      "unknown), pairs,\n"
+      "verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the "
+      "program prints it.\n"
+      "Raises Error for suites that cannot be read, or have nothing in common.");
+}
+
+void bind_worlds(py::module_& module) {
+  module.def(
+      "world",
+      [](const std::string& family, std::uint64_t seed, const std::string& out,
+         const std::string& pictures, bool sheet) {
+        PythonCaller caller;
+        const app::WorldMade made = carry_out([&] {
+          return app::world({family, seed, out, pictures, sheet}, caller);
+        });
+        return py::dict("file"_a = made.folder / (worlds::name_of(made.world) + ".yaml"),
+                        "objects"_a = made.world.bodies.size(),
+                        "movers"_a = made.world.scenario.actors.size(),
+                        "drawn_again"_a = made.world.attempt, "features"_a = made.world.features);
+      },
+      "family"_a, "seed"_a = 1, py::kw_only(), "out"_a = "", "pictures"_a = "", "sheet"_a = false,
+      "Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).\n\n"
+      "out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for "
+      "surfaces.\n"
+      "Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.\n"
+      "Raises ValueError for an unknown family, naming the known ones.");
+  module.def(
+      "worlds",
+      [](const std::string& split, int count, const std::string& family, int jobs) {
+        PythonCaller caller;
+        const std::vector<worlds::Kept> chosen = app::chosen_worlds({split, count, family}, "");
+        carry_out([&] { app::draw_worlds(chosen, app::jobs_at_once(jobs), caller); });
+        std::vector<fs::path> files;
+        for (const worlds::Kept& one : chosen) files.push_back(one.file);
+        return files;
+      },
+      "split"_a, "count"_a = 60, py::kw_only(), "family"_a = "", "jobs"_a = 0,
+      "The scenario files of the first worlds of a split: train, validate or test, by which "
+      "nothing may be\n"
+      "chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.");
+}
+
+void bind_runs(py::module_& module) {
+  module.def(
+      "run",
+      [](const fs::path& scenario, const std::string& out, std::optional<std::uint64_t> seed,
+         const py::object& set, const std::string& frames, const std::string& detector,
+         const std::string& command, double timeout, const std::string& detections,
+         const Texts& beside, const std::string& recorded, const std::string& keep, bool video,
+         bool events, bool report, const py::object& progress) {
+        app::RunRequest request;
+        request.scenario = scenario.string();
+        request.out = out;
+        request.seed = seed;
+        request.sets = assignments_of(set);
+        request.frames = frames;
+        request.detector = detector_of(detector, command, timeout, detections);
+        request.beside = beside;
+        request.recorded = recorded;
+        request.keep = bench::keep_of(keep);
+        request.no_video = !video;
+        request.events = events;
+        request.report = report;
+        PythonCaller caller(progress);
+        const app::RunMade made = carry_out([&] { return app::run(request, caller); });
+        return dict_of(made, caller);
+      },
+      "scenario"_a, py::kw_only(), "out"_a = "", "seed"_a = py::none(), "set"_a = py::none(),
+      "frames"_a = "", "detector"_a = "", "detector_command"_a = "",
+      "detector_timeout"_a = kTimeout, "detections"_a = "", "beside"_a = Texts{}, "recorded"_a = "",
+      "keep"_a = "all", "video"_a = false, "events"_a = false, "report"_a = false,
+      "progress"_a = py::none(),
+      "Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.\n\n"
+      "beside: \"DETECTOR=FOLDER\" each. The others are as those of suite.\n"
+      "Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), "
+      "messages.");
+  module.def(
+      "_score_files",
+      [](const fs::path& folder, const fs::path& detections) {
+        PythonCaller caller;
+        const app::Scored scored = carry_out([&] {
+          return app::score({folder.string(), detections.string()}, caller);
+        });
+        if (scored.suite) throw py::value_error("a suite has many runs; give the folder of one");
+        return dict_of(scored.metrics);
+      },
+      "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
+  module.def(
+      "replay",
+      [](const fs::path& path, const std::string& out, const py::object& recording,
+         const std::string& ego_motion, const std::string& fast_threshold,
+         const std::string& preset, const py::object& set, const std::string& detector,
+         const std::string& command, double timeout, const Texts& beside, bool video, bool events,
+         const py::object& progress) {
+        app::ReplayRequest request;
+        request.path = path.string();
+        for (const std::string& assignment : assignments_of(recording)) {
+          const auto [key, value] = app::key_and_value(assignment);
+          request.recording[key] = value;
+        }
+        request.ego_motion = ego_motion;
+        request.fast_threshold = fast_threshold;
+        request.preset = preset;
+        request.sets = assignments_of(set);
+        request.detector = detector_of(detector, command, timeout, "");
+        request.beside = beside;
+        request.out = out;
+        request.no_video = !video;
+        request.events = events;
+        PythonCaller caller(progress);
+        const app::RunMade made = carry_out([&] { return app::replay(request, caller); });
+        return dict_of(made, caller);
+      },
+      "path"_a, py::kw_only(), "out"_a = "", "recording"_a = py::none(), "ego_motion"_a = "",
+      "fast_threshold"_a = "", "preset"_a = "", "set"_a = py::none(), "detector"_a = "",
+      "detector_command"_a = "", "detector_timeout"_a = kTimeout, "beside"_a = Texts{},
+      "video"_a = false, "events"_a = false, "progress"_a = py::none(),
+      "Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs "
+      "replay.\n\n"
+      "path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {\"focal\": "
+      "600,\n"
+      "\"topics.imu\": \"/imu\"}; lists as text, \"319.5,239.5\". ego_motion: imu or truth. "
+      "fast_threshold:\n"
+      "contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.");
+  module.def(
+      "generate",
+      [](const py::object& paths, const std::string& out, const std::string& worlds, int count,
+         const std::string& family, bool suite, const Texts& formats, int frames,
+         std::optional<std::uint64_t> seed, int seeds, const py::object& set, int jobs,
+         const std::string& shard, const py::object& progress) {
+        app::GenerateRequest request;
+        request.paths = paths_of(paths);
+        request.worlds = {worlds, count, family};
+        request.suite = suite;
+        request.out = out;
+        request.formats = formats;
+        request.frames = frames;
+        request.seed = seed;
+        request.seeds = seeds;
+        request.sets = assignments_of(set);
+        request.jobs = jobs;
+        request.shard = shard;
+        PythonCaller caller(progress);
+        if (request.is_of_many()) {
+          const app::SequencesMade made =
+              carry_out([&] { return app::generate_suite(request, caller); });
+          return py::dict("folders"_a = made.folders, "errors"_a = made.errors,
+                          "messages"_a = caller.messages());
+        }
+        const app::Generated made = carry_out([&] { return app::generate(request, caller); });
+        return py::dict("folders"_a = std::vector{made.folder}, "errors"_a = Texts{},
+                        "frames"_a = std::pair(made.range.first, made.range.last),
+                        "notes"_a = made.notes, "messages"_a = caller.messages());
+      },
+      "paths"_a = py::none(), py::kw_only(), "out"_a = "", "worlds"_a = "", "count"_a = 60,
+      "family"_a = "", "suite"_a = false, "formats"_a = Texts{}, "frames"_a = 0,
+      "seed"_a = py::none(), "seeds"_a = 1, "set"_a = py::none(), "jobs"_a = 1, "shard"_a = "",
+      "progress"_a = py::none(),
+      "Writes a scenario as a sequence that other tools read (tools/sequence/README.md).\n\n"
+      "paths: the scenario's file; with suite=True files and folders. worlds: in its place a split "
+      "of\n"
+      "worlds, as in suite. formats: names, all if not given. frames: only the first so many.\n"
+      "Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; "
+      "messages. The\n"
+      "same call goes on after it was interrupted.");
+}
+
+void bind_studies(py::module_& module) {
+  module.def(
+      "tune",
+      [](const py::object& suites, const py::object& validate, const Texts& keys,
+         const py::object& set, int evaluations, std::uint64_t seed, const fs::path& out,
+         const py::object& progress) {
+        const app::TuneRequest request{.suites = paths_of(suites),
+                                       .validate = paths_of(validate),
+                                       .keys = keys,
+                                       .sets = assignments_of(set),
+                                       .evaluations = evaluations,
+                                       .seed = seed,
+                                       .out = out.string()};
+        PythonCaller caller(progress);
+        const app::TuneMade made = carry_out([&] { return app::tune(request, caller); });
+        py::list stated;
+        for (const tune::Stated& one : made.stated) {
+          stated.append(py::dict("suite"_a = one.suite, "before"_a = dict_of(one.before),
+                                 "after"_a = dict_of(one.after)));
+        }
+        return py::dict("folder"_a = made.folder, "before"_a = dict_of(made.found.before),
+                        "after"_a = dict_of(made.found.after), "stated"_a = stated,
+                        "evaluations"_a = made.found.evaluations, "record"_a = made.record,
+                        "messages"_a = caller.messages());
+      },
+      "suites"_a, py::kw_only(), "validate"_a = py::none(), "keys"_a = Texts{},
+      "set"_a = py::none(), "evaluations"_a = 300, "seed"_a = 1, "out"_a = app::TuneRequest{}.out,
+      "progress"_a = py::none(),
+      "Learns the filter's parameters from suites of the split train, as lcs tune.\n\n"
+      "suites, validate: folders. keys: of the parameters; all learnt ones if not given.\n"
+      "Returns a dict: folder; before, after: values by key; stated: for each kind of suites a "
+      "dict of suite\n"
+      "and, before and after, objective, f1, false objects and corners a frame; evaluations; "
+      "record, a text.\n"
+      "The same call goes on after it was interrupted.");
+  module.def(
+      "kinematics",
+      [](const std::string& config, const py::object& set, double tolerance, bool quick,
+         const fs::path& out, const py::object& progress) {
+        const app::KinematicsRequest request{.config = config,
+                                             .sets = assignments_of(set),
+                                             .out = out.string(),
+                                             .tolerance_px = tolerance,
+                                             .quick = quick};
+        PythonCaller caller(progress);
+        const app::KinematicsMade made =
+            carry_out([&] { return app::kinematics(request, caller); });
+        py::list answer;
+        for (const kinematics::Statement& one : made.answer) {
+          py::list figures;
+          for (const kinematics::Figure& figure : one.figures) {
+            figures.append(py::dict("name"_a = figure.name, "value"_a = figure.value,
+                                    "unit"_a = figure.unit, "expected"_a = figure.expected));
+          }
+          answer.append(py::dict("topic"_a = one.topic, "text"_a = one.text, "figures"_a = figures,
+                                 "verdict"_a = one.verdict));
+        }
+        return py::dict("folder"_a = made.folder, "answer"_a = answer, "text"_a = made.text,
+                        "messages"_a = caller.messages());
+      },
+      "config"_a = "", py::kw_only(), "set"_a = py::none(), "tolerance"_a = 1.0, "quick"_a = false,
+      "out"_a = app::KinematicsRequest{}.out, "progress"_a = py::none(),
+      "Measures when the motion model holds for a camera and rover "
+      "(tools/kinematics/README.md).\n\n"
+      "config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.\n"
+      "Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, "
+      "expected,\n"
+      "NaN without theory) and verdict; text: as the program prints it.");
+}
+
+}  // namespace
+
+void bind_bench(py::module_& module) {
+  bind_suites(module);
+  bind_worlds(module);
+  bind_runs(module);
+  bind_studies(module);
+  module.def("_use_program", &scenario::set_program, "file"_a,
+             "The program lcs, which runs suites.");
+  module.def("_shipped_folder", &scenario::shipped_folder, "name"_a);
+}
+
+}  // namespace lcs::python
