@@ -24,7 +24,7 @@ struct ReplayRequest {
   std::vector<std::string> sets;                 ///< filter settings, "key=value"
   DetectorChoice detector;
   std::vector<std::string> beside;  ///< as in `RunRequest`
-  std::string out;                  ///< folder; "" is out/<name of the recording>
+  std::string out;                  ///< folder; "" is `out/<name of the recording>`
   bool no_video = false;
   bool events = false;
 };
