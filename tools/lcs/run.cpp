@@ -97,9 +97,7 @@ void print_result(const scenario::Scenario& scenario, const std::string& detecto
 }
 
 Intrinsics camera_of(const scenario::Scenario& scenario) {
-  const scenario::Camera& camera = scenario.camera;
-  return bench::intrinsics(
-      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
+  return bench::intrinsics(sim::lens_of(scenario.camera).pinhole());
 }
 
 /// The source of the frames that the detectors process.
