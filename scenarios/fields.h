@@ -59,6 +59,9 @@ struct OrWord {  ///< a word that means an optional member without a value
   Form form;
   std::string_view word;
 };
+struct OneOrTwo {  ///< a number for x and y, or [x, y]
+  input::Quantity quantity;
+};
 struct OwnFileOr {  ///< one of the words, or a file ("rover.xml") for the enumerator `own`
   std::vector<std::string> words;
   std::filesystem::path& file;
@@ -102,7 +105,7 @@ void fields(EgoPhase& phase, Visit&& visit) {
 
 template <class Visit>
 void fields(Ego& ego, Visit&& visit) {
-  auto& [source, drive, drive_file, start_m, heading_rad, phases, waypoints] = ego;
+  auto& [source, drive, drive_file, start_m, heading_rad, phases, waypoints, path] = ego;
   if (phases.empty()) phases.emplace_back();
   visit({"drive",
          "`holonomic`: a planar base that follows any command; `wheeled`: two driven wheels on "
@@ -123,9 +126,20 @@ void fields(Ego& ego, Visit&& visit) {
         waypoints);
   visit.in_place_of("waypoints", {"start", "heading", "speed", "acceleration", "direction",
                                   "yaw_rate", "phases"});
+  visit({"path",
+         "`[[time, x, y, z, roll, pitch, yaw], ...]`, two or more: poses of a camera that is "
+         "carried or flies, and the times to be there, which increase; smooth in between, at rest "
+         "at both ends. In place of all other keys",
+         "none"},
+        path);
+  visit.in_place_of("path", {"drive", "start", "heading", "speed", "acceleration", "direction",
+                             "yaw_rate", "phases", "waypoints"});
 }
 
 // --- its sensors
+
+inline constexpr std::string_view kDistortionKey =
+    "`[k1, k2, p1, p2, k3]`, or `{equidistant: [k1, k2, k3, k4]}`, as OpenCV has them";
 
 template <class Visit>
 void fields(Camera::Told& told, Visit&& visit) {
@@ -136,24 +150,42 @@ void fields(Camera::Told& told, Visit&& visit) {
 
 template <class Visit>
 void fields(Camera& camera, Visit&& visit) {
-  auto& [width_px, height_px, fovy_rad, rate_hz, position_m, rotation_rad, told, groups] = camera;
+  auto& [source, width_px, height_px, fovy_rad, focal_px, centre_px, distortion, rate_hz,
+         position_m, rotation_rad, told, groups] = camera;
   Eigen::Vector2i size_px(width_px, height_px);
   visit({"size", "[width, height] in pixels"}, size_px, Whole{16, 8192});
   width_px = size_px.x();
   height_px = size_px.y();
-  std::optional<double> focal_px;
-  visit({"fovy", "vertical field of view"}, fovy_rad, kFieldOfView);
-  visit({"focal", "in place of `fovy`: the focal length, half the height by tan(fovy / 2)",
+  std::optional<Eigen::Vector2d> focal = focal_px;
+  visit({"fovy", "vertical field of view, of a centred camera without distortion"}, fovy_rad,
+        kFieldOfView);
+  visit({"focal",
+         "in place of `fovy`: the focal length, half the height by tan(fovy / 2); `[fx, fy]` for "
+         "pixels that are not square",
          "that of `fovy`"},
-        focal_px, kFocal);
-  visit.at_most_one_of({"fovy", "focal"});
-  if (focal_px) fovy_rad = 2 * std::atan(height_px / 2.0 / *focal_px);
+        focal, OneOrTwo{kFocal});
+  visit.in_place_of("focal", {"fovy"});
+  visit({"centre", "`[cx, cy]`: principal point; (0, 0) is the centre of the top-left pixel",
+         "the picture's middle"},
+        centre_px, kInPicture);
+  visit({"distortion", kDistortionKey, "none"}, distortion);
+  if (focal) {
+    fovy_rad = 2 * std::atan(height_px / 2.0 / focal->y());
+    if (focal->x() != focal->y() || centre_px || distortion) focal_px = focal;
+  }
   visit({"rate", "frames a second"}, rate_hz, kCameraRate);
   visit({"position", "[x, y, z] of the camera in the rover"}, position_m, kPosition);
   visit({"rotation",
          "[roll, pitch, yaw] about the rover's fixed x, y, z in this order; positive pitch looks "
          "down, positive yaw to the left"},
         rotation_rad, kAngle);
+  std::vector<Eigen::Vector4d> T_BC;  // only reading fills it, and the two above from it
+  visit({"T_BC",
+         "in place of both: `[[r, r, r, x], [r, r, r, y], [r, r, r, z], [0, 0, 0, 1]]`, the matrix "
+         "that takes camera coordinates (x right, y down, z forward) to the rover's",
+         "by `position` and `rotation`"},
+        T_BC, kCoefficient);
+  visit.in_place_of("T_BC", {"position", "rotation"});
   visit({"told",
          "`{height_error: 2 cm, pitch_error: 0.5 deg}`: errors of the calibration that the filter "
          "is given",
@@ -446,14 +478,12 @@ void fields(Recorded& recorded, Visit&& visit) {
   visit({"imu_calibration", "noise densities of the IMU, as Kalibr's `imu.yaml` has them",
          "the layout's own, else none; told"},
         imu_calibration, File{});
-  visit({"focal", "focal length; the layout's calibration is then left aside", "the layout's own"},
-        focal_px, kFocal);
+  visit({"focal", "focal length, or `[fx, fy]`; the layout's calibration is then left aside",
+         "the layout's own"},
+        focal_px, OneOrTwo{kFocal});
   visit({"centre", "principal point", "the calibration's, with `focal` the middle"}, centre_px,
         kInPicture);
-  visit({"distortion",
-         "`[k1, k2, p1, p2, k3]`, or `{equidistant: [k1, k2, k3, k4]}`, as OpenCV has them",
-         "the calibration's, with `focal` none"},
-        distortion);
+  visit({"distortion", kDistortionKey, "the calibration's, with `focal` none"}, distortion);
   visit({"bayer", "pattern of raw pictures, from the top left pixel on", "they are not raw"}, bayer,
         Words{{"rggb", "bggr", "grbg", "gbrg"}});
   visit({"bits", "that the values of 16-bit pictures use",

@@ -119,7 +119,13 @@ std::vector<Row> rows_in(const std::vector<Row>& rows, std::string_view place) {
   return all;
 }
 
-Kind kind_of(Plain, const Recorded::Distortion&) {
+Kind kind_of(const OneOrTwo& form, const Eigen::Vector2d& pair) {
+  Kind kind = kind_of(form.quantity, 0.0);
+  kind.schema = {{"anyOf", {kind.schema, kind_of(form.quantity, pair).schema}}};
+  return kind;
+}
+
+Kind kind_of(Plain, const Distortion&) {
   const Kind number = kind_of(kCoefficient, 0.0);
   const Json fisheye{{"type", "object"},
                      {"additionalProperties", false},
@@ -135,12 +141,23 @@ Kind kind_of(Plain, const Waypoint&) {
   return {"", {{"type", "array"}, {"items", items}, {"minItems", 3}, {"maxItems", 3}}};
 }
 
+Kind kind_of(Plain, const PathPose&) {
+  const Json place = kind_of(kPosition, 0.0).schema, angle = kind_of(kAngle, 0.0).schema;
+  const Json items =
+      Json::array({kind_of(kTime, 0.0).schema, place, place, place, angle, angle, angle});
+  return {"", {{"type", "array"}, {"items", items}, {"minItems", 7}, {"maxItems", 7}}};
+}
+
 Kind kind_of(Plain, const TimeSpan&) {
   return array_of(kind_of(kDuration, 0.0), 2, 2);
 }
 
 Kind kind_of(Plain, const std::vector<Waypoint>&) {
   return {"a list", array_of(kind_of(Plain{}, Waypoint{}), 2).schema};
+}
+
+Kind kind_of(Plain, const std::vector<PathPose>&) {
+  return {"a list", array_of(kind_of(Plain{}, PathPose{}), 2).schema};
 }
 
 Kind kind_of(Plain, const Waypoints& waypoints) {

@@ -1,5 +1,6 @@
 #include "scenarios/load.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -34,6 +35,10 @@ template <class T>
 void complete(input::Reader&, T&) {}
 
 void complete(input::Reader& reader, Ego& ego) {
+  if (!ego.path.empty()) {
+    ego.start_m = ego.path.front().position_m.head<2>();
+    ego.heading_rad = ego.path.front().rpy_rad.z();
+  }
   if (ego.waypoints.empty()) return;
   ego.start_m = ego.waypoints.front().position_m;
   const auto elsewhere = std::ranges::find_if(
@@ -146,6 +151,14 @@ void read_value(const Item& item, const Form& form, Eigen::Matrix<Number, N, 1>&
   }
 }
 
+void read_value(const Item& item, const OneOrTwo& form, Eigen::Vector2d& out) {
+  if (item.value.kind == input::Value::Kind::list) {
+    read_value(item, form.quantity, out);
+  } else {
+    out.setConstant(input::as_quantity(item.value, item.path, form.quantity));
+  }
+}
+
 template <class T, class Form>
 void read_value(const Item& item, const Form& form, std::optional<T>& out) {
   T value{};
@@ -214,7 +227,7 @@ void read_value(const Item& item, const FramesBefore& form, int& frames) {
   frames = frames_before(duration_s, form.rate_hz, item.value);
 }
 
-void read_value(const Item& item, Plain, Recorded::Distortion& out) {
+void read_value(const Item& item, Plain, Distortion& out) {
   input::Value list = item.value;
   std::string path = item.path;
   if (list.kind == input::Value::Kind::map) {
@@ -245,6 +258,30 @@ void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
   if (points.size() < 2) {
     throw input::Error(item.value.where,
                        item.path + " has fewer than two waypoints; give two or more [time, x, y]");
+  }
+}
+
+void read_value(const Item& item, Plain, std::vector<PathPose>& path) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
+    const Item next = item.at(path.size(), value);
+    const std::vector<input::Value>& seven = input::as_list(value, next.path, 7);
+    PathPose pose;
+    read_value(next.at(0, seven[0]), kTime, pose.at_s);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      read_value(next.at(1 + i, seven[1 + i]), kPosition, pose.position_m[axis]);
+      read_value(next.at(4 + i, seven[4 + i]), kAngle, pose.rpy_rad[axis]);
+    }
+    if (!path.empty() && pose.at_s <= path.back().at_s) {
+      throw input::Error(value.where, next.path + " is at '" + seven[0].text +
+                                          "', not after the one before; make the times increase");
+    }
+    path.push_back(pose);
+  }
+  if (path.size() < 2) {
+    throw input::Error(item.value.where, item.path +
+                                             " has fewer than two poses; give two or more [time, "
+                                             "x, y, z, roll, pitch, yaw]");
   }
 }
 
@@ -380,6 +417,35 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
   }
 }
 
+/// Takes position and rotation from `T_BC`.
+void complete(input::Reader& reader, Camera& camera) {
+  const input::Value* value = reader.find("T_BC");
+  if (!value) return;
+  const fs::path nowhere;
+  std::vector<Eigen::Vector4d> rows;
+  read_value(Item{*value, reader.path_of("T_BC"), nowhere}, kCoefficient, rows);
+  constexpr double kRounding = 1e-5;  // calibrations are printed with some digits
+  Eigen::Matrix4d T = Eigen::Matrix4d::Zero();
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
+    T.row(static_cast<Eigen::Index>(i)) = rows[i];
+  }
+  const Eigen::Matrix3d R_BC = T.topLeftCorner<3, 3>();
+  if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
+      !(R_BC * R_BC.transpose()).isIdentity(kRounding) || R_BC.determinant() < 0) {
+    throw input::Error(value->where, reader.path_of("T_BC") +
+                                         " is no rigid transform; give four rows: a rotation "
+                                         "beside a translation, and 0 0 0 1");
+  }
+  camera.mount_position_m = T.topRightCorner<3, 1>();
+  Eigen::Matrix3d R;  // of a camera's forward, left and up
+  R << R_BC.col(2), -R_BC.col(0), -R_BC.col(1);
+  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
+  const bool is_vertical = std::hypot(R(2, 1), R(2, 2)) < 1e-9;  // roll and yaw are one then
+  camera.mount_rpy_rad = {
+      is_vertical ? std::atan2(-R(1, 2), R(1, 1)) : std::atan2(R(2, 1), R(2, 2)), pitch,
+      is_vertical ? 0 : std::atan2(R(1, 0), R(0, 0))};
+}
+
 // --- maps
 
 struct ReadFields {
@@ -403,10 +469,49 @@ struct ReadFields {
   }
 };
 
+/// Keys of other simulators and of calibrations, and the remedy.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kForeignKeys{{
+    {"fx", "give camera.focal: [fx, fy]"},
+    {"fy", "give camera.focal: [fx, fy]"},
+    {"cx", "give camera.centre: [cx, cy]"},
+    {"cy", "give camera.centre: [cx, cy]"},
+    {"intrinsics", "give camera.focal: [fx, fy] and camera.centre: [cx, cy]"},
+    {"distortion_coeffs", "give camera.distortion"},
+    {"distortion_coefficients", "give camera.distortion"},
+    {"distortion_model", "give camera.distortion, with {equidistant: ...} for a fisheye"},
+    {"T_BS", "give camera.T_BC"},
+    {"T_imu_cam", "give camera.T_BC"},
+    {"T_cam_imu", "give its inverse as camera.T_BC"},
+    {"rolling_shutter", ""},
+    {"motion_blur", ""},
+    {"cameras", ""},
+    {"stereo", ""},
+    {"time_offset", ""},
+    {"timeshift_cam_imu", ""},
+    {"vignetting", ""},
+    {"auto_exposure", ""},
+}};
+
+void refuse_foreign_keys(const Item& item) {
+  for (const input::Entry& entry : item.value.entries) {
+    const auto* const found = std::ranges::find(kForeignKeys, std::string_view(entry.key),
+                                                &decltype(kForeignKeys)::value_type::first);
+    if (found == kForeignKeys.end()) continue;
+    throw input::Error(
+        entry.where,
+        "unknown key '" + entry.key + "'; " +
+            (found->second.empty()
+                 ? "the simulator has none of it (scenarios/README.md, 'What the simulator has, "
+                   "and has not'); remove it"
+                 : std::string(found->second)));
+  }
+}
+
 template <HasFields T>
 void read_value(const Item& item, Plain, T& out) {
   input::Reader reader(item.value, item.path);
   if constexpr (requires { out.source; }) out.source = reader.where();
+  refuse_foreign_keys(item);
   fields(out, ReadFields{reader, item.folder});
   reader.finish();
   complete(reader, out);

@@ -46,6 +46,13 @@ struct Waypoint {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
 };
 
+/// A pose of the rover's frame B in W, with its time. Attitude: R = Rz(yaw) Ry(pitch) Rx(roll).
+struct PathPose {
+  double at_s = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rpy_rad = Eigen::Vector3d::Zero();
+};
+
 struct Ego {
   input::Source source;
   Drive drive = Drive::holonomic;
@@ -57,12 +64,28 @@ struct Ego {
   /// rover starts at the first waypoint, heading to the next different one; `sim/world/route.h`
   /// describes its motion.
   std::vector<Waypoint> waypoints;
+  /// Replaces drive, phases and waypoints: a camera that is carried or flies, without a vehicle. At
+  /// least two; times increase from 0 or later. `sim/world/path.h` describes its motion.
+  std::vector<PathPose> path;
+
+  /// Whether there is no vehicle: `path` says where the camera is.
+  bool is_carried() const { return !path.empty(); }
+};
+
+/// OpenCV's distortion models. Both begin with the radial coefficients.
+struct Distortion {
+  bool equidistant = false;          ///< else radial and tangential
+  std::vector<double> coefficients;  ///< k1 k2 p1 p2 k3, or k1 k2 k3 k4 if `equidistant`
 };
 
 struct Camera {
+  input::Source source;
   int width_px = 640;
   int height_px = 480;
-  double fovy_rad = std::numbers::pi / 3;  ///< vertical field of view, (0, pi)
+  double fovy_rad = std::numbers::pi / 3;    ///< vertical field of view, (0, pi), if undistorted
+  std::optional<Eigen::Vector2d> focal_px;   ///< fx, fy; absent: both by `fovy_rad`
+  std::optional<Eigen::Vector2d> centre_px;  ///< principal point; absent: the picture's middle
+  std::optional<Distortion> distortion;      ///< absent: straight lines stay straight
   double rate_hz = 10;
   Eigen::Vector3d mount_position_m{0.2, 0, 0.45};  ///< position of the camera in B
   /// Roll, pitch, yaw about B's fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll). With
@@ -223,11 +246,6 @@ inline constexpr std::array<const char*, 12> kRecordingFormats{
 /// Frames of a real camera, instead of a simulation's. The layout supplies values that are absent
 /// here; others are unknown, never invented. Camera frame: x right, y down, z forward.
 struct Recorded {
-  /// OpenCV's distortion models. Both begin with the radial coefficients.
-  struct Distortion {
-    bool equidistant = false;          ///< else radial and tangential
-    std::vector<double> coefficients;  ///< k1 k2 p1 p2 k3, or k1 k2 k3 k4 if `equidistant`
-  };
   enum class Split { train, validate, test };
   /// Of a ROS bag; "": the only one of its kind.
   struct Topics {
@@ -253,7 +271,7 @@ struct Recorded {
   ///@}
   std::optional<std::filesystem::path> calibration;      ///< of the camera; exists
   std::optional<std::filesystem::path> imu_calibration;  ///< noise, as Kalibr has it; exists
-  std::optional<double> focal_px;
+  std::optional<Eigen::Vector2d> focal_px;               ///< fx, fy
   std::optional<Eigen::Vector2d> centre_px;
   std::optional<Distortion> distortion;
   std::string bayer;        ///< pattern of raw images from the top left, as "rggb"; "": none

@@ -29,8 +29,9 @@ std::string scenes_in(const fs::path& folder) {
   return text.empty() ? text : text + ")";
 }
 
-const char* name_of(Drive drive) {
-  switch (drive) {
+const char* name_of(const Ego& ego) {
+  if (ego.is_carried()) return "ego/carried.xml";
+  switch (ego.drive) {
     case Drive::holonomic:
       return "ego/holonomic.xml";
     case Drive::wheeled:
@@ -75,7 +76,7 @@ fs::path scenes_folder() {
 }
 
 fs::path rover_file(const Ego& ego) {
-  return ego.drive == Drive::own ? ego.drive_file : shipped_file(name_of(ego.drive));
+  return ego.drive == Drive::own ? ego.drive_file : shipped_file(name_of(ego));
 }
 
 fs::path actor_file(const Actor& actor) {
@@ -87,7 +88,7 @@ std::vector<std::string> shadowed_files(const Scenario& scenario) {
   std::set<fs::path> names;
   const fs::path scene = scenario.scene.filename();
   if (scenario.scene == scenes_folder() / scene) names.insert(scene);
-  if (scenario.ego.drive != Drive::own) names.insert(name_of(scenario.ego.drive));
+  if (scenario.ego.drive != Drive::own) names.insert(name_of(scenario.ego));
   for (const Actor& actor : scenario.actors) {
     if (!actor.body && actor.shape != Shape::own) names.insert(name_of(actor.shape));
   }

@@ -70,7 +70,10 @@ input::Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector
   for (const Number number : vector) items.items.push_back(written(form, number));
   return items;
 }
-inline input::Value written(Plain, const Recorded::Distortion& distortion) {
+inline input::Value written(const OneOrTwo& form, const Eigen::Vector2d& pair) {
+  return pair.x() == pair.y() ? written(form.quantity, pair.x()) : written(form.quantity, pair);
+}
+inline input::Value written(Plain, const Distortion& distortion) {
   input::Value numbers = list({});
   for (const double k : distortion.coefficients) numbers.items.push_back(written(kCoefficient, k));
   if (!distortion.equidistant) return numbers;
@@ -81,6 +84,12 @@ inline input::Value written(Plain, const Recorded::Distortion& distortion) {
 inline input::Value written(Plain, const Waypoint& point) {
   return list({written(kTime, point.at_s), written(kPosition, point.position_m.x()),
                written(kPosition, point.position_m.y())});
+}
+inline input::Value written(Plain, const PathPose& pose) {
+  input::Value items = list({written(kTime, pose.at_s)});
+  for (const double m : pose.position_m) items.items.push_back(written(kPosition, m));
+  for (const double rad : pose.rpy_rad) items.items.push_back(written(kAngle, rad));
+  return items;
 }
 inline input::Value written(Plain, const TimeSpan& span) {
   return list({written(kTime, span.from_s), written(kTime, span.to_s)});

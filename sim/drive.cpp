@@ -30,7 +30,8 @@ Drive drive(const scenario::Scenario& scenario) {
 Calibration calibrate(const World& world, const scenario::Camera& camera) {
   const Pose T_BW = world.T_WB().inverse();
   Calibration c;
-  c.camera = Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
+  c.optics = Optics(lens_of(camera));
+  c.camera = c.optics.lens().pinhole();
   c.T_BC = T_BW * world.snapshot().T_WC;
   c.T_BC.p.z() += camera.told.height_error_m;
   c.T_BC.R = Eigen::AngleAxisd(camera.told.pitch_error_rad, Eigen::Vector3d::UnitY()) * c.T_BC.R;
@@ -38,7 +39,7 @@ Calibration calibrate(const World& world, const scenario::Camera& camera) {
   c.T_WB_start = world.T_WB();
   c.v_WB_start_mps = world.v_WB_mps();
   c.gravity_mps2 = world.gravity_mps2();
-  c.on_ground = true;
+  c.on_ground = world.is_on_ground();
   return c;
 }
 

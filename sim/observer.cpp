@@ -26,7 +26,7 @@ std::vector<ConvexParts> outlines(const World& world) {
   return parts;
 }
 
-Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera) {
+Photographer photographer_of(const scenario::Scenario& s, const Optics& camera) {
   try {
     return {s.image, camera, s.camera.rate_hz, s.seed};
   } catch (const std::invalid_argument& error) {
@@ -39,11 +39,10 @@ Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera)
 Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
     : scenario_(scenario),
       world_(scenario, wrong_start),
-      renderer_(world_.model(), world_.camera_id(), scenario.camera.width_px,
-                scenario.camera.height_px, world_.groups()),
-      parts_(outlines(world_)),
       calibration_(calibrate(world_, scenario.camera)),
-      photographer_(photographer_of(scenario, calibration_.camera)),
+      renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups()),
+      parts_(outlines(world_)),
+      photographer_(photographer_of(scenario, calibration_.optics)),
       snapshot_(world_.snapshot()) {
   world_.advance_to(0, imu_, odometry_, &imu_truth_);
 }
@@ -103,15 +102,33 @@ void Observer::render(Observation& o) {
                  [&](int geom) { return geom < 0 ? -1 : world_.object_of_geom(geom); });
 }
 
+/// Area of each object's pixels in the picture of the pinhole, by id.
+std::vector<double> Observer::areas_px(const cv::Mat1i& object) const {
+  const Optics& optics = calibration_.optics;
+  const double focal_px = calibration_.camera.focal_px;
+  std::vector<double> areas_px(parts_.size(), 0);
+  for (int y = 0; y < object.rows; ++y) {
+    for (int x = 0; x < object.cols; ++x) {
+      if (object(y, x) <= 0) continue;
+      areas_px[static_cast<std::size_t>(object(y, x))] +=
+          optics.is_pinhole()
+              ? 1
+              : focal_px * focal_px / optics.jacobian_px(optics.ray(x, y)).determinant();
+    }
+  }
+  return areas_px;
+}
+
 std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) const {
   std::vector<ObjectTruth> all = modal_boxes(truth.object, static_cast<int>(parts_.size()) - 1);
   std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
   const Pose T_CW = truth.now.T_WC.inverse();
+  const std::vector<double> seen_px = areas_px(truth.object);
   for (ObjectTruth& o : all) {
     const auto id = static_cast<std::size_t>(o.object);
     const double full = silhouette_px(calibration_.camera, T_CW * truth.now.T_WO[id], parts_[id],
                                       renderer_.near_m());
-    o.visible_fraction = full > 0 ? std::min(1.0, o.visible_px / full) : 0;
+    o.visible_fraction = full > 0 ? std::min(1.0, seen_px[id] / full) : 0;
     o.moving = moved(truth.now.T_WO[id], truth.next.T_WO[id]);
   }
   return all;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/camera/camera_renderer.h"
+#include "sim/camera/lens_renderer.h"
 #include "sim/camera/photograph.h"
 #include "sim/simulation.h"
 #include "sim/truth/silhouette.h"
@@ -37,14 +37,15 @@ class Observer {
 
  private:
   void render(Observation& o);
+  std::vector<double> areas_px(const cv::Mat1i& object) const;
   std::vector<ObjectTruth> visible_objects(const FrameTruth& truth) const;
   void note_unseen();
 
   scenario::Scenario scenario_;
   World world_;
-  CameraRenderer renderer_;
-  std::vector<ConvexParts> parts_;
   Calibration calibration_;
+  LensRenderer renderer_;
+  std::vector<ConvexParts> parts_;
   Photographer photographer_;
   Snapshot snapshot_;           ///< at the next frame
   std::vector<ImuSample> imu_;  ///< since the last frame

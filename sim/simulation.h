@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/optics.h"
 #include "sim/imu/imu.h"
 #include "sim/pose.h"
 #include "sim/truth/truth.h"
@@ -22,7 +23,8 @@ struct Observation {
   int index = 0;          ///< k, from 0
   std::int64_t t_ns = 0;  ///< k / rate, from 0
   cv::Mat3b image;        ///< BGR
-  /// BGR, before lens, light, weather and sensor: each pixel shows one surface, that of the truth.
+  /// BGR, before lens blur, light, weather and sensor: each pixel shows one surface, that of the
+  /// truth. With a distortion a pixel at an outline mixes its two surfaces.
   cv::Mat3b rendered;
   cv::Mat1i geom;              ///< the model's geom at each pixel of `rendered`; -1 for the sky
   std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
@@ -35,9 +37,10 @@ struct Observation {
 /// The calibration that the filter gets before the first frame: the mounting of the sensors, and
 /// the initial state of dead reckoning. Exact except for `camera.told` of the scenario.
 struct Calibration {
-  Pinhole camera;
-  Pose T_BC;  ///< camera in the rover's frame
-  Pose T_BS;  ///< IMU in the rover's frame
+  Optics optics;   ///< of the pictures
+  Pinhole camera;  ///< of the detectors, which get corners and pictures without distortion
+  Pose T_BC;       ///< camera in the rover's frame
+  Pose T_BS;       ///< IMU in the rover's frame
   Pose T_WB_start;
   Eigen::Vector3d v_WB_start_mps = Eigen::Vector3d::Zero();
   double gravity_mps2 = 9.81;  ///< along -z of W

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -81,6 +82,7 @@ struct CameraRenderer::Impl {
   mjrContext context;
   std::vector<unsigned char> rgb;
   std::vector<float> z;
+  std::optional<Pinhole> view;
 
   Impl(Model& model_, const GeomGroups& groups, int camera, int width_px_, int height_px_)
       : model(model_),
@@ -160,8 +162,22 @@ CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int heigh
 
 CameraRenderer::~CameraRenderer() = default;
 
+void CameraRenderer::set_view(const Pinhole& view) {
+  impl_->view = view;
+}
+
 void CameraRenderer::update() {
-  impl_->drawables.update(impl_->model);
+  Impl& s = *impl_;
+  s.drawables.update(s.model);
+  if (!s.view) return;
+  const Pinhole& view = *s.view;
+  for (mjvGLCamera& camera : s.scene.camera) {
+    const double per_px = camera.frustum_near / view.focal_px;
+    const Eigen::Vector2d to_edge = view.centre_px.array() + 0.5;
+    camera.frustum_center = static_cast<float>(per_px * (view.width_px / 2.0 - to_edge.x()));
+    camera.frustum_top = static_cast<float>(per_px * to_edge.y());
+    camera.frustum_bottom = static_cast<float>(per_px * (to_edge.y() - view.height_px));
+  }
 }
 
 void CameraRenderer::render_colour(cv::Mat3b& bgr) {

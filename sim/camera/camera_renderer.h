@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/camera/drawables.h"
+#include "sim/pose.h"
 
 namespace lcs::sim {
 
@@ -23,6 +24,11 @@ class CameraRenderer {
   ~CameraRenderer();
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
+
+  /// Sees by this pinhole from the next update on; before, by the field of view of the model's
+  /// camera, with the principal point in the middle.
+  /// \param view of the size of the renderer.
+  void set_view(const Pinhole& view);
 
   /// Takes the poses of the model's last forward pass for the following renders.
   void update();

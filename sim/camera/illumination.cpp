@@ -24,16 +24,16 @@ float slope(float a, float b, float c) {
 
 }  // namespace
 
-Illumination::Illumination(const scenario::Image& image, const Pinhole& camera)
+Illumination::Illumination(const scenario::Image& image, const Optics& camera)
     : camera_(camera),
       ambient_(static_cast<float>(image.light_lx / scenario::Image::kDaylight_lx)),
       extinction_per_m_(image.visibility_m ? static_cast<float>(kKoschmieder / *image.visibility_m)
                                            : 0.F),
-      ray_length_(camera.height_px, camera.width_px) {
+      ray_length_(camera.size_px()) {
   if (image.headlights) lamps_times_m2_.create(ray_length_.size());
-  for (int y = 0; y < camera.height_px; ++y) {
-    for (int x = 0; x < camera.width_px; ++x) {
-      const Eigen::Vector3d ray = camera.back_project({x, y}, 1);
+  for (int y = 0; y < ray_length_.rows; ++y) {
+    for (int x = 0; x < ray_length_.cols; ++x) {
+      const Eigen::Vector3d ray = camera.ray(x, y).homogeneous();
       ray_length_(y, x) = static_cast<float>(ray.norm());
       if (!image.headlights) continue;
       const double off_axis = std::atan(ray.head<2>().norm()) / image.headlights->beam_rad;
@@ -51,21 +51,27 @@ float Illumination::lamps(int x, int y, float distance_m) const {
 }
 
 /// cos(alpha) of each pixel. On a plane n . X = h, a pixel with ray r has the inverse depth
-/// w = (n . r) / h. The slopes of w give n / h; then cos(alpha) = w / (|n / h| |r|).
+/// w = (n . r) / h. The slopes of w by the ray give n / h; then cos(alpha) = w / (|n / h| |r|).
 cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
   cv::Mat1f cosine(depth_m.size(), 1.F);
+  const Lens& lens = camera_.lens();
+  const auto ray_of = [&](int x, int y) -> Eigen::Vector2f {
+    if (!camera_.is_pinhole()) return camera_.ray(x, y).cast<float>();
+    return Eigen::Vector2d(x - lens.cu_px, y - lens.cv_px).cast<float>() /
+           static_cast<float>(lens.fu_px);
+  };
   const auto inverse = [&](int x, int y) { return 1 / depth_m(y, x); };
-  const auto f = static_cast<float>(camera_.focal_px);
   for (int y = 1; y + 1 < depth_m.rows; ++y) {
     for (int x = 1; x + 1 < depth_m.cols; ++x) {
       const float w = inverse(x, y);
       if (w <= 0) continue;  // the sky
-      const float nx = f * slope(inverse(x - 1, y), w, inverse(x + 1, y));
-      const float ny = f * slope(inverse(x, y - 1), w, inverse(x, y + 1));
-      const float rx = (static_cast<float>(x - camera_.centre_px.x())) / f;
-      const float ry = (static_cast<float>(y - camera_.centre_px.y())) / f;
-      const float nz = w - nx * rx - ny * ry;
-      const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+      const Eigen::Vector2f by_px(slope(inverse(x - 1, y), w, inverse(x + 1, y)),
+                                  slope(inverse(x, y - 1), w, inverse(x, y + 1)));
+      const Eigen::Vector2f r = ray_of(x, y);
+      const Eigen::Vector2f n =
+          camera_.jacobian_px(r.cast<double>()).cast<float>().transpose() * by_px;
+      const float nz = w - n.x() * r.x() - n.y() * r.y();
+      const float length = std::sqrt(n.x() * n.x() + n.y() * n.y() + nz * nz);
       cosine(y, x) = std::min(1.F, w / (length * ray_length_(y, x)));
     }
   }

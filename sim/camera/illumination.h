@@ -17,13 +17,13 @@
 #include <opencv2/core.hpp>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
+#include "sim/camera/optics.h"
 
 namespace lcs::sim {
 
 class Illumination {
  public:
-  Illumination(const scenario::Image& image, const Pinhole& camera);
+  Illumination(const scenario::Image& image, const Optics& camera);
 
   /// \param picture in linear light. \param depth_m along the optical axis; +inf for sky.
   void light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const;
@@ -36,7 +36,7 @@ class Illumination {
  private:
   cv::Mat1f facing(const cv::Mat1f& depth_m) const;
 
-  Pinhole camera_;
+  Optics camera_;
   float ambient_;
   float extinction_per_m_;
   cv::Mat1f ray_length_;      ///< ray length per metre of z-depth

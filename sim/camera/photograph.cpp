@@ -9,14 +9,15 @@
 
 namespace lcs::sim {
 
-Photographer::Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
+Photographer::Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
                            std::uint64_t scenario_seed)
     : blur_px_(image.blur_px),
       jpeg_quality_(image.jpeg_quality),
       rate_hz_(rate_hz),
       illumination_(image, camera),
       sensor_(image, scenario_seed) {
-  if (image.rain) rain_.emplace(*image.rain, image.exposure_s, camera, scenario_seed);
+  if (image.rain)
+    rain_.emplace(*image.rain, image.exposure_s, camera.lens().pinhole(), scenario_seed);
 }
 
 void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {

@@ -1,7 +1,7 @@
 /// \file
 /// Turns a rendered image into the camera's, by the scenario's section `image`: light and air,
 /// rain, blur and the sensor, then compression. The truth is unchanged: a corner on a raindrop
-/// counts as the surface behind the drop.
+/// counts as the surface behind the drop. A lens bends the scene, but no streaks and drops.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 #include "scenarios/scenario.h"
 #include "sim/camera/illumination.h"
 #include "sim/camera/image_sensor.h"
+#include "sim/camera/optics.h"
 #include "sim/camera/rain.h"
-#include "sim/pose.h"
 
 namespace lcs::sim {
 
 class Photographer {
  public:
-  Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
+  Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
                std::uint64_t scenario_seed);
 
   /// Converts the rendered image of frame `k` in place. The result depends on the arguments alone;

@@ -241,6 +241,7 @@ Fragment rover_fragment(const scenario::Ego& ego, SpecReader& reader) {
   fragment.spec = reader.read(file, ego.source, SpecReader::Part::fragment);
   mjSpec* spec = fragment.spec.get();
   fragment.base = &check_base(*spec, reader, file);
+  if (ego.is_carried()) return fragment;
   check_rover(fragment, reader);
   // the file's cameras are for a viewer; their names may clash with the scenario's camera
   for (const mjtObj type : {mjOBJ_CAMERA, mjOBJ_KEY}) {

@@ -92,9 +92,14 @@ double distance_to(const Pinhole& camera, const StaticSegment& segment, double m
 }
 
 CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vector<char>& moves,
-                  const Pose& T_NC, const Eigen::Vector2f& corner, double min_depth_m) {
+                  const Pose& T_NC, const Eigen::Vector2f& corner, double min_depth_m,
+                  const Optics* picture) {
   CornerTruth result;
-  const Surface surface = nearest_3x3(truth, corner);
+  const Eigen::Vector2f place =
+      picture && !picture->is_pinhole()
+          ? picture->project(camera.back_project(corner.cast<double>(), 1)).cast<float>()
+          : corner;
+  const Surface surface = nearest_3x3(truth, place);
   if (surface.object < 0) return result;
   result.object = surface.object;
   result.depth_m = surface.depth_m;
@@ -119,7 +124,7 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vec
 
   if (!moves[id]) {
     result.label = Label::fixed;
-    result.outline = is_beside_mover(truth, moves, corner);
+    result.outline = is_beside_mover(truth, moves, place);
   } else if ((result.motion_px - result.static_motion_px).norm() >= kDistinctPx) {
     result.label = Label::rebel;
     const StaticSegment segment{T_NC.R * camera.back_project(x, 1), T_NC.p};
@@ -141,7 +146,7 @@ bool moved(const Pose& now, const Pose& next) {
 
 std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& truth,
                                        std::span<const Eigen::Vector2f> corners_px,
-                                       double min_depth_m) {
+                                       double min_depth_m, const Optics* picture) {
   if (!(min_depth_m > 0))
     throw std::invalid_argument("the nearest depth of truth must be positive");
   const Pose T_NC = truth.next.T_WC.inverse() * truth.now.T_WC;
@@ -151,7 +156,7 @@ std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& 
   std::vector<CornerTruth> labels;
   labels.reserve(corners_px.size());
   for (const Eigen::Vector2f& corner : corners_px) {
-    labels.push_back(label(camera, truth, moves, T_NC, corner, min_depth_m));
+    labels.push_back(label(camera, truth, moves, T_NC, corner, min_depth_m, picture));
   }
   return labels;
 }

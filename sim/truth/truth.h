@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/camera/optics.h"
 #include "sim/pose.h"
 #include "sim/truth/mask.h"
 
@@ -69,11 +70,13 @@ struct CornerTruth {
   Eigen::Vector2d static_motion_px = Eigen::Vector2d::Zero();  ///< u_s: the same if fixed in W
 };
 
+/// \param camera in whose pixels corners and motions are, and the limits of 1 px.
 /// \param corners_px in frame k; a corner outside the image has label `none`.
 /// \param min_depth_m least depth of the static segment (z_min), > 0.
+/// \param picture of depth and objects, if that is not by `camera`.
 std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& truth,
                                        std::span<const Eigen::Vector2f> corners_px,
-                                       double min_depth_m);
+                                       double min_depth_m, const Optics* picture = nullptr);
 
 /// An object's modal (visible) box and mask, and its visible share.
 struct ObjectTruth {
@@ -82,7 +85,7 @@ struct ObjectTruth {
   int left = 0, top = 0, right = 0, bottom = 0;
   int visible_px = 0;  ///< pixels of the mask
   /// Visible share of the full silhouette, which extends beyond the image; 0 if the body reaches
-  /// behind the camera, where its silhouette is unbounded.
+  /// behind the camera, where its silhouette is unbounded. Areas are those in a pinhole's image.
   double visible_fraction = 0;
   bool moving = false;  ///< its pose at k+1 differs from that at k
   Runs mask;            ///< its pixels within the box; empty if unknown

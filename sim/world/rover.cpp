@@ -14,6 +14,7 @@
 
 #include "sim/scene/ground.h"
 #include "sim/scene/scene_builder.h"
+#include "sim/world/path.h"
 #include "sim/world/route.h"
 
 namespace lcs::sim {
@@ -262,6 +263,43 @@ class WheeledRover : public Rover {
   double radius_m_ = 0;
 };
 
+/// A camera on a path. Its pose and velocity are set anew for each step, so that they are exact at
+/// events.
+class CarriedCamera : public Rover {
+ public:
+  CarriedCamera(const scenario::Scenario& scenario, const Model& model)
+      : path_(scenario.ego), base_(model, "base") {
+    if (!scenario.odometry.enabled) return;
+    throw input::Error(scenario.ego.source,
+                       "odometry measures wheels, and a camera on ego.path has none; remove "
+                       "odometry, or give the ego a drive in place of its path");
+  }
+
+  void start(Model& model) override { command(model, 0); }
+
+  PlanarVelocity command(Model& model, std::int64_t t_ns) override {
+    now_ = path_.at(1e-9 * static_cast<double>(t_ns));
+    const Eigen::Quaterniond q(now_.T_WB.R);
+    Eigen::Map<Eigen::Matrix<double, 7, 1>>(model.d().qpos + base_.qpos) << now_.T_WB.p, q.w(),
+        q.vec();
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(model.d().qvel + base_.qvel) << now_.v_WB_mps,
+        now_.w_B_radps;
+    return {};
+  }
+
+  void accelerate(Model& model) override {
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(model.d().qacc + base_.qvel) << now_.a_WB_mps2,
+        now_.dw_B_radps2;
+  }
+
+  PlanarVelocity odometry(const Model&) const override { return {}; }
+
+ private:
+  Path path_;
+  Joint base_;
+  Path::Motion now_;
+};
+
 }  // namespace
 
 PlanarVelocity commanded_velocity(const std::vector<EgoPhase>& phases, std::int64_t t_ns) {
@@ -301,6 +339,7 @@ PlanarVelocity SmoothCommand::at(std::int64_t t_ns) {
 }
 
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {
+  if (scenario.ego.is_carried()) return std::make_unique<CarriedCamera>(scenario, model);
   if (model.has(mjOBJ_ACTUATOR, kEgoPrefix + std::string("x"))) {
     return std::make_unique<HolonomicRover>(scenario.ego, model);
   }

@@ -42,7 +42,7 @@ class SmoothCommand {
   std::int64_t t_ns_ = 0;
 };
 
-/// Drives the body `ego/base` through the actuators of its fragment.
+/// Drives the body `ego/base` through the actuators of its fragment, or along its path.
 class Rover {
  public:
   virtual ~Rover() = default;
@@ -54,9 +54,11 @@ class Rover {
   virtual PlanarVelocity command(Model& model, std::int64_t t_ns) = 0;
   /// Velocity of B by the wheels, without noise.
   virtual PlanarVelocity odometry(const Model& model) const = 0;
+  /// Sets accelerations that no force causes, after a forward pass.
+  virtual void accelerate(Model&) {}
 };
 
-/// Holonomic if the rover has an actuator `x`, else wheeled.
+/// Carried if the ego has a path, holonomic if the rover has an actuator `x`, else wheeled.
 /// \throws input::Error for a command that the drive cannot execute (sideways on wheels).
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model);
 

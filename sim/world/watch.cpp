@@ -378,11 +378,12 @@ void Watch::note_attitude(const Model& model, std::int64_t t_ns) {
                 fmt::format("the rover has tipped over {}", at(t_ns, T_WB.p)));
 }
 
-void Watch::look(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked) {
-  note_drive(model, t_ns, asked);
+void Watch::look(const Model& model, std::int64_t t_ns,
+                 const std::optional<PlanarVelocity>& asked) {
+  if (asked) note_drive(model, t_ns, *asked);
   note_contacts(model, t_ns);
   if (!has_moved(model)) return;
-  note_attitude(model, t_ns);
+  if (asked) note_attitude(model, t_ns);
   note_falls(model, t_ns);
   find_meetings(model, [&](const Pair& pair, const Overlap::Place& place) {
     note_meeting(pair, place.point_m, t_ns);

@@ -57,8 +57,9 @@ class Watch {
 
   /// Call it after every step. It recomputes all overlaps once anything has moved by a few
   /// centimetres.
-  /// \param asked the commanded velocity of the step. \param t_ns at the start of the step.
-  void look(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked);
+  /// \param asked the commanded velocity of the step; absent for a camera without a vehicle, which
+  ///   may have any attitude. \param t_ns at the start of the step.
+  void look(const Model& model, std::int64_t t_ns, const std::optional<PlanarVelocity>& asked);
 
   Warnings& warnings() { return warnings_; }
   const Warnings& warnings() const { return warnings_; }

@@ -409,6 +409,7 @@ void World::forward() {
   rover_->command(model_, t_ns_);
   move_actors();
   mj_forward(&model_.m(), &model_.d());
+  rover_->accelerate(model_);
 }
 
 /// Warns, once, of actors that did not move until the last frame although they should.
@@ -449,7 +450,7 @@ void World::step_to(std::int64_t t_ns) {
       move_actors();
       mj_step(&m, &model_.d());
       if (t_ns_ <= event_time_ns(scenario_.frames - 1, scenario_.camera.rate_hz)) {
-        watch_->look(model_, t_ns_, asked);
+        watch_->look(model_, t_ns_, is_on_ground() ? std::optional(asked) : std::nullopt);
       } else {
         end_watch();
       }

@@ -78,6 +78,8 @@ class World {
   /// \throws MujocoError; std::system_error if memory is short.
   std::string saved(bool as_mjcf);
 
+  /// Whether the rover's origin stays on the ground.
+  bool is_on_ground() const { return !scenario_.ego.is_carried(); }
   Snapshot snapshot() const;
   Pose T_WB() const;
   Pose T_WS() const;

@@ -7,13 +7,15 @@
 
 #include <numbers>
 
+#include "sim/camera/rectifier.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/rectifier.h"
 
 namespace lcs::replay {
 namespace {
+
+using sim::Rectifier;
 
 using bench::refusal_of;
 

@@ -8,16 +8,18 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/camera/rectifier.h"
 #include "tests/tools/files.h"
 #include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/rectifier.h"
 
 namespace lcs::replay {
 namespace {
+
+using sim::Rectifier;
 
 namespace fs = std::filesystem;
 using bench::write;

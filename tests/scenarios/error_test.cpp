@@ -154,6 +154,20 @@ INSTANTIATE_TEST_SUITE_P(
               "4: imu.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("OdometryRateZero", "odometry: {rate: 0 Hz}\n",
               "4: odometry.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
+        added("KeyOfACalibration", "camera: {fx: 458}\n",
+              "4: unknown key 'fx'; give camera.focal: [fx, fy]"),
+        added("SensorThatIsNot", "camera: {rolling_shutter: 20 ms}\n",
+              "4: unknown key 'rolling_shutter'; the simulator has none of it "
+              "(scenarios/README.md, 'What the simulator has, and has not'); remove it"),
+        added("FourCoefficients", "camera: {distortion: [0.1, 0, 0, 0]}\n",
+              "4: camera.distortion is a list of 4; give a list of 5, as in [0, 0, 0, 0, 0]"),
+        added("MountOfThreeRows", "camera: {T_BC: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}\n",
+              "4: camera.T_BC is no rigid transform; give four rows: a rotation beside a "
+              "translation, and 0 0 0 1"),
+        added("MountThatScales",
+              "camera: {T_BC: [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]}\n",
+              "4: camera.T_BC is no rigid transform; give four rows: a rotation beside a "
+              "translation, and 0 0 0 1"),
         added("NoFieldOfView", "camera: {fovy: 0 deg}\n",
               "4: camera.fovy is '0 deg'; it must be above 0 and below 180 deg"),
         added("TwoLenses", "camera: {focal: 500, fovy: 60 deg}\n",
@@ -240,6 +254,14 @@ INSTANTIATE_TEST_SUITE_P(
         ego("WaypointsNowhere", "{waypoints: [[0, 1, 2], [1, 1, 2]]}",
             "ego.waypoints lead nowhere: all are one place; make one of them another, or give "
             "start and heading for a rover that stands"),
+        ego("PathAndDrive",
+            "{drive: wheeled, path: [[0, 0, 0, 0, 0, 0, 0], [1, 1, 0, 0, 0, 0, 0]]}",
+            "both ego.drive and ego.path are given; keep one of them"),
+        ego("PathOfOnePose", "{path: [[0, 0, 0, 0, 0, 0, 0]]}",
+            "ego.path has fewer than two poses; give two or more [time, x, y, z, roll, pitch, "
+            "yaw]"),
+        ego("PathBackInTime", "{path: [[1, 0, 0, 0, 0, 0, 0], [0.5, 1, 0, 0, 0, 0, 0]]}",
+            "ego.path.1 is at '0.5', not after the one before; make the times increase"),
         ego("EgoAtOneWaypoint", "{waypoints: [[0, 1, 2]]}",
             "ego.waypoints has fewer than two waypoints; give two or more [time, x, y]")),
     name_of);

@@ -117,6 +117,12 @@ TEST(Written, IsTheFileThatWasRead) {
   const std::string way = "frames: 3\nego: {waypoints: [[0 s, 1 m, 2 m], [1 s, 1 m, 3 m]]}\n";
   EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + way)),
             input::flattened(input::parse_text(way, {"text", 1})));
+  const std::string flown =
+      "frames: 3\nego: {path: [[0 s, 1 m, 2 m, 3 m, 0 deg, 1 deg, 2 deg], [1 s, 1 m, 3 m, 3 m, 0 "
+      "deg, 0 deg, 0 deg]]}\ncamera: {focal: [458.654 px, 457.296 px], centre: [367 px, 248 px], "
+      "distortion: [-0.28, 0.07, 0.0002, 0, 0]}\n";
+  EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + flown)),
+            input::flattened(input::parse_text(flown, {"text", 1})));
   const std::string recorded = kRecorded;
   std::string with_path = recorded;
   with_path.insert(with_path.find('{') + 1, "path: room.xml, ");

@@ -359,6 +359,23 @@ actors:
   EXPECT_FALSE(std::get<Still>(s.actors[5].trajectory).position_m);
 }
 
+TEST(Load, TheMatrixOfTheCameraGivesItsPlaceAndRotation) {
+  const auto camera = [](const std::string& rows) {
+    return load_text(smallest + "camera: {T_BC: [" + rows + ", [0, 0, 0, 1]]}\n").camera;
+  };
+  // it looks along the rover's x, upright
+  const Camera ahead = camera("[0, 0, 1, 0.3], [-1, 0, 0, -0.1], [0, -1, 0, 0.7]");
+  EXPECT_EQ(ahead.mount_position_m, Eigen::Vector3d(0.3, -0.1, 0.7));
+  EXPECT_LT(ahead.mount_rpy_rad.norm(), 1e-12);
+  // straight down, with the top of the picture ahead
+  const Camera down = camera("[0, -1, 0, 0], [-1, 0, 0, 0], [0, 0, -1, 1]");
+  EXPECT_LT((down.mount_rpy_rad - Eigen::Vector3d(0, pi / 2, 0)).norm(), 1e-7);
+  // to the left, 30 deg down
+  const Camera left =
+      camera("[1, 0, 0, 0], [0, -0.5, 0.8660254038, 0], [0, -0.8660254038, -0.5, 0]");
+  EXPECT_LT((left.mount_rpy_rad - Eigen::Vector3d(0, pi / 6, pi / 2)).norm(), 1e-9);
+}
+
 TEST(Load, AFocalLengthStandsForTheFieldOfViewThatItMakes) {
   const auto focal_px = [](const Scenario& s) {
     return s.camera.height_px / 2.0 / std::tan(s.camera.fovy_rad / 2);

@@ -66,7 +66,7 @@ TEST_F(RecordingKeys, AreReadWithTheirUnits) {
   EXPECT_EQ(r.imu, folder_.path() / "imu.csv");
   EXPECT_EQ(r.odometry, folder_.path() / "wheels.csv");
   EXPECT_EQ(r.speed_mps, 10);
-  EXPECT_EQ(r.focal_px, 700);
+  EXPECT_EQ(r.focal_px, Eigen::Vector2d(700, 700));
   EXPECT_EQ(r.centre_px, Eigen::Vector2d(320, 240));
   ASSERT_TRUE(r.distortion);
   EXPECT_FALSE(r.distortion->equidistant);

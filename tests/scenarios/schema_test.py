@@ -28,6 +28,8 @@ RIGHT = [
     "{recording: {path: a.mp4}}",
     "{recording: {path: a.mp4, distortion: [0, 0, 0, 0, 0]}, frames: 5, corners: {threshold: auto}}",
     "{scene: lab, frames: 3, ego: {acceleration: -5 cm/s^2}, image: {noise: none, gain: '2'}}",
+    "{scene: lab, frames: 3, ego: {path: [[0, 0, 0, 1, 0, 9 deg, 0], [1 s, 1, 0, 1, 0, 0, 0]]}}",
+    "{scene: lab, frames: 3, ego: {}, camera: {focal: [500 px, 499], distortion: [0, 0, 0, 0, 0]}}",
 ]
 WRONG = [
     "{frames: 3, ego: {}}",  # no scene
@@ -46,6 +48,9 @@ WRONG = [
     "{scene: lab, frames: 3, ego: {speed: 101}}",
     "{scene: lab, frames: 3, ego: {start: [1 m]}}",
     "{scene: lab, frames: 3, ego: {speed: 1, waypoints: [[0, 1, 2], [1, 2, 2]]}}",
+    "{scene: lab, frames: 3, ego: {speed: 1, path: [[0, 0, 0, 1, 0, 0, 0], [1, 1, 0, 1, 0, 0, 0]]}}",
+    "{scene: lab, frames: 3, ego: {path: [[0, 0, 0, 1], [1, 1, 0, 1]]}}",
+    "{scene: lab, frames: 3, ego: {}, camera: {focal: [500, 499, 498]}}",
     "{scene: lab, frames: 0, ego: {}}",
     "{scene: lab, frames: 3, ego: {}, camera: {fovy: 60 deg, focal: 600 px}}",
     "{scene: lab, frames: 3, ego: {}, camera: {fovy: 0}}",

@@ -9,6 +9,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
+#include "tools/replay/calibration.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/text_file.h"
@@ -62,6 +63,11 @@ INSTANTIATE_TEST_SUITE_P(
                          "crossing.yaml",
                          {"frames=6", "corners.threshold=auto", "image.jpeg=50"}},
                     Case{"WheelsOnRoughGround", "suite/rough_ground.yaml", {"frames=6"}},
+                    Case{"Lens",
+                         "crossing.yaml",
+                         {"frames=6", "camera.focal=[420, 410]", "camera.centre=[330, 225]",
+                          "camera.distortion=[-0.28, 0.07, 0.0002, 0.00002, 0]"}},
+                    Case{"CarriedFisheye", "examples/flying.yaml", {"frames=6"}},
                     Case{"GapInTheImu", "suite/imu_gap.yaml", {"frames=22"}}),
     [](const auto& test) { return test.param.name; });
 
@@ -75,6 +81,28 @@ TEST_P(GeneratedReplayOf, HasEveryBitOfTheRun) {
   EXPECT_NE(of_run.find("\"signatures\":\""), std::string::npos);
   EXPECT_TRUE(layers("replay") == of_run)
       << "motion, corners, signatures, verdicts and layers, as text";
+}
+
+TEST_F(GeneratedReplay, HasTheLensAndItsPlaceInEveryCalibration) {
+  make("generate", "examples/flying.yaml", {"frames=2"},
+       {"--formats", "euroc,kalibr", "--out", home_.path() / "sequence"});
+  for (const char* file : {"kalibr/camchain.yaml", "mav0/cam0/sensor.yaml"}) {
+    const auto read = replay::read_calibration(home_.path() / "sequence" / file);
+    const replay::Lens& lens = read.lens.value();
+    EXPECT_EQ(lens.fu_px, 285.3) << file;
+    EXPECT_EQ(lens.fv_px, 285.1) << file;
+    EXPECT_EQ(lens.cu_px, 237.4) << file;
+    EXPECT_EQ(lens.cv_px, 181.2) << file;
+    EXPECT_EQ(lens.distortion, replay::Lens::Distortion::equidistant) << file;
+    EXPECT_EQ(lens.coefficients, (std::vector<double>{0.0035, 0.0007, -0.0021, 0.0002})) << file;
+    Eigen::Matrix3d R;
+    R << 0, -0.3420201433, 0.9396926208, -1, 0, 0, 0, -0.9396926208, -0.3420201433;
+    EXPECT_LT((read.T_BS.value().R - R).norm(), 1e-9) << file;
+    EXPECT_LT((read.T_BS.value().p - Eigen::Vector3d(0.08, 0.01, -0.02)).norm(), 1e-9) << file;
+  }
+  const auto imu = replay::read_calibration(home_.path() / "sequence/kalibr/imu.yaml");
+  EXPECT_EQ(imu.noise.value().gyroscope_noise_density, 1.6968e-4);
+  EXPECT_EQ(imu.rate_hz, 200);
 }
 
 /// Figures except times and those that the world determines.

@@ -39,9 +39,7 @@ std::filesystem::path target_of(const RunRequest& request, const scenario::Scena
 }
 
 Intrinsics camera_of(const scenario::Scenario& scenario) {
-  const scenario::Camera& camera = scenario.camera;
-  return bench::intrinsics(
-      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
+  return bench::intrinsics(sim::lens_of(scenario.camera).pinhole());
 }
 
 /// The source of the frames that the detectors process.

@@ -13,7 +13,9 @@ namespace lcs::bench {
 SimulatedFrames::SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation)
     : scenario_(scenario),
       simulation_(simulation),
-      ego_motion_(scenario, simulation.calibration()) {}
+      ego_motion_(scenario, simulation.calibration()),
+      rectifier_(simulation.calibration().optics.lens(),
+                 simulation.calibration().optics.size_px()) {}
 
 bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
   // The renderer and MuJoCo have threads of their own.
@@ -29,12 +31,21 @@ bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
   return true;
 }
 
+bool SimulatedFrames::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const {
+  rectifier_.rectify(corners_px);
+  rectifier_.rectify(image);
+  return !rectifier_.is_pinhole();
+}
+
 void SimulatedFrames::label(FrameRecord& frame) {
+  sim::FrameTruth& truth = observation_->truth;
   frame.corner_truth = timed(frame.times.value().truth_ms, [&] {
-    return sim::label_corners(simulation_.calibration().camera, observation_->truth,
-                              frame.corners_px, scenario_.truth_min_depth_m);
+    return sim::label_corners(simulation_.calibration().camera, truth, frame.corners_px,
+                              scenario_.truth_min_depth_m, &simulation_.calibration().optics);
   });
-  frame.object_truth = observation_->objects;
+  frame.object_truth = rectifier_.rectified(observation_->objects, truth.object);
+  rectifier_.rectify(truth.object);
+  rectifier_.rectify(truth.depth_m);
 }
 
 std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,

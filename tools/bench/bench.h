@@ -11,6 +11,7 @@
 
 #include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
+#include "sim/camera/rectifier.h"
 #include "sim/simulation.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
@@ -49,17 +50,20 @@ class SimulatedFrames : public FrameSource {
   SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation);
 
   bool next(FrameRecord& frame, cv::Mat3b& image) override;
+  bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const override;
   void label(FrameRecord& frame) override;
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
   Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
 
-  /// The complete observation of the last frame.
+  /// The complete observation of the last frame. Once it is labelled, depth and objects of its
+  /// truth are of the straightened picture.
   const std::optional<sim::Observation>& observation() const { return observation_; }
 
  private:
   const scenario::Scenario& scenario_;
   sim::Simulation& simulation_;
   EgoMotionFeed ego_motion_;
+  sim::Rectifier rectifier_;
   std::optional<sim::Observation> observation_;  ///< of the last frame
 };
 

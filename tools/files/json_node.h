@@ -103,6 +103,8 @@ class JsonNode {
 
   bool is_text(std::string_view word) const { return json_.is_string() && json_ == word; }
 
+  bool is_list() const { return json_.is_array(); }
+
   bool is_flag() const { return json_.is_boolean(); }
 
   std::string text() const {

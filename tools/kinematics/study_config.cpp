@@ -16,6 +16,14 @@ constexpr double kStandInSpeed_mps = 0.5;  // if the scenario's rover is static
 StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) {
   StudyConfig config;
   config.scenario = scenario;
+  // the filter gets corners without distortion
+  scenario::Camera& camera = config.scenario.camera;
+  if (camera.focal_px || camera.distortion) {
+    camera.fovy_rad =
+        2 * std::atan(camera.height_px / 2.0 / sim::lens_of(camera).pinhole().focal_px);
+    camera.focal_px.reset();
+    camera.distortion.reset();
+  }
   config.filter = bench::filter_parameters(scenario);
   config.effort = effort;
   for (const scenario::EgoPhase& phase : scenario.ego.phases) {
@@ -41,6 +49,7 @@ scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, 
   s.ego.drive = scenario::Drive::holonomic;
   s.ego.phases = {{.speed_mps = config.speed_mps}};
   s.ego.waypoints.clear();
+  s.ego.path.clear();
   s.camera.rate_hz = rate_hz;
   s.imu.noise = {};
   s.imu.gaps.clear();

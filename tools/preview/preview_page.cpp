@@ -260,10 +260,11 @@ class PreviewPage : public report::TextPage {
   /// The camera's field of view, up to 3 m.
   void view(const Window& w, const sim::Snapshot& snapshot) {
     constexpr double kFar_m = 3;
-    const scenario::Camera& camera = scenario_.camera;
-    const double half_x = std::tan(camera.fovy_rad / 2) * camera.width_px / camera.height_px;
+    const sim::Optics optics(sim::lens_of(scenario_.camera));
+    const sim::Lens& lens = optics.lens();
     std::vector<Vector2d> fan{snapshot.T_WC.p.head<2>()};
-    for (const double x : {-half_x, half_x}) {
+    for (const double u_px : {-0.5, lens.width_px - 0.5}) {
+      const double x = optics.back_project({u_px, lens.cv_px}, 1).x();
       const Eigen::Vector3d ray = snapshot.T_WC.R * Eigen::Vector3d(x, 0, 1).normalized();
       fan.push_back(fan.front() + kFar_m * ray.head<2>());
     }

@@ -32,9 +32,7 @@ std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
     made->camera = {playback.camera(), made->full.camera.rate_hz};
   } else {
     made->full = asked;
-    const scenario::Camera& camera = asked.camera;
-    made->camera = {sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad),
-                    camera.rate_hz};
+    made->camera = {sim::lens_of(asked.camera).pinhole(), asked.camera.rate_hz};
   }
   made->asked = std::move(asked);
   warn(scenario::shadowed_files(made->full));

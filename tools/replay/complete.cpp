@@ -250,7 +250,8 @@ void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
   }
   if (asked.focal_px) {
     Lens& lens = recorded.lens.emplace();
-    lens.fu_px = lens.fv_px = *asked.focal_px;
+    lens.fu_px = asked.focal_px->x();
+    lens.fv_px = asked.focal_px->y();
     lens.centred = true;
     lens.source = asked.source;
   } else if (!recorded.lens) {
@@ -264,9 +265,7 @@ void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
     lens.centred = false;
   }
   if (asked.distortion) {
-    lens.distortion = asked.distortion->equidistant ? Lens::Distortion::equidistant
-                                                    : Lens::Distortion::radial_tangential;
-    lens.coefficients = asked.distortion->coefficients;
+    sim::set_distortion(*asked.distortion, lens);
     lens.source = asked.source;
   }
   require_lens(lens);

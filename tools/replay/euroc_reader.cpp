@@ -67,17 +67,6 @@ std::vector<RecordedFrame> read_frames(const fs::path& camera, const TableTimes&
   return frames;
 }
 
-Lens lens_of(const sim::Pinhole& camera, const fs::path& settings) {
-  return {.fu_px = camera.focal_px,
-          .fv_px = camera.focal_px,
-          .cu_px = camera.centre_px.x(),
-          .cv_px = camera.centre_px.y(),
-          .coefficients = {},
-          .width_px = camera.width_px,
-          .height_px = camera.height_px,
-          .source = {settings.string(), 0}};
-}
-
 /// Start of dead reckoning, with the biases known there.
 struct Start {
   std::int64_t t_ns = 0;
@@ -167,16 +156,22 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
          require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
          if (!said.lens) return;
          const Lens& lens = *said.lens;
-         const sim::Pinhole& camera = told.camera;
-         require(is_same(lens.fu_px, camera.focal_px) && is_same(lens.fv_px, camera.focal_px) &&
-                     is_same(lens.cu_px, camera.centre_px.x()) &&
-                     is_same(lens.cv_px, camera.centre_px.y()),
+         const Lens& own = exact.lens;
+         require(is_same(lens.fu_px, own.fu_px) && is_same(lens.fv_px, own.fv_px) &&
+                     is_same(lens.cu_px, own.cu_px) && is_same(lens.cv_px, own.cv_px),
                  "intrinsics");
          const cv::Size size_px(lens.width_px, lens.height_px);
-         require(size_px.empty() || size_px == cv::Size(camera.width_px, camera.height_px),
-                 "resolution");
-         require(std::ranges::all_of(lens.coefficients, [](double c) { return c == 0; }),
-                 "distortion_coefficients");
+         require(size_px.empty() || size_px == cv::Size(own.width_px, own.height_px), "resolution");
+         const bool is_fisheye = own.distortion == Lens::Distortion::equidistant;
+         require(is_fisheye == (lens.distortion == Lens::Distortion::equidistant),
+                 "distortion_model");
+         for (std::size_t i = 0; i < std::max(lens.coefficients.size(), own.coefficients.size());
+              ++i) {
+           const auto at = [i](const Lens& of) {
+             return i < of.coefficients.size() ? of.coefficients[i] : 0;
+           };
+           require(is_same(at(lens), at(own)), "distortion_coefficients");
+         }
        });
   read("imu0", {}, [&](const SensorCalibration& said, const auto& require) {
     if (!said.noise) return;
@@ -344,7 +339,7 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
     require_same(mav, exact);
     recorded.settings = exact.scenario;
     if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
-    recorded.lens = lens_of(exact.calibration.camera, settings_file);
+    recorded.lens = exact.lens;
     // The truth holds motions from each picture to the next.
     const fs::path truth_file = asked.path / sequence::kTruthFile;
     if (asked.every == 1 && fs::exists(truth_file)) {

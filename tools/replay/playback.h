@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/rectifier.h"
 #include "tools/bench/bench.h"
 #include "tools/replay/picture_stream.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/rectifier.h"
 
 namespace lcs::replay {
 
@@ -50,7 +50,7 @@ class Playback : public bench::FrameSource {
   scenario::Scenario scenario_;
   Recorded recorded_;
   PictureStream pictures_;
-  std::optional<Rectifier> rectifier_;
+  std::optional<sim::Rectifier> rectifier_;
   bench::Truth truth_;                                         ///< of corners
   std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, if all is known
   int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/optics.h"
 #include "tools/recording/recording.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/picture_reader.h"
@@ -37,19 +38,7 @@ class Tally {
   std::vector<std::string> told_;
 };
 
-/// A calibrated camera, in pixels with (0, 0) at the centre of the top-left one.
-struct Lens {
-  enum class Distortion { none, radial_tangential, equidistant };
-  double fu_px = 0, fv_px = 0, cu_px = 0, cv_px = 0;
-  Distortion distortion = Distortion::none;
-  std::vector<double> coefficients;  ///< in OpenCV's order
-  /// The rays pass a unit sphere before the pinhole. Mei and Rives, ICRA 2007 (omni): xi, with
-  /// `alpha` 0. Usenko et al., 3DV 2018 (double sphere): xi and alpha. 0, 0: a pinhole alone.
-  double xi = 0, alpha = 0;
-  bool centred = false;             ///< the principal point is the centre of the picture
-  int width_px = 0, height_px = 0;  ///< picture size of the calibration; 0: unknown
-  input::Source source = {};        ///< place to name if the picture size differs
-};
+using sim::Lens;
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;

@@ -2,8 +2,6 @@
 // sequences: T_BS of imu0 and of the truth is the identity.
 #include <fmt/format.h>
 
-#include <span>
-
 #include "tools/sequence/png.h"
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/writers.h"
@@ -26,16 +24,7 @@ constexpr const char* kOdometryHeader =
     "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
     "w_RB_B_z [rad s^-1]\n";
 
-/// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers.
-std::string numbers(std::span<const double> values, const char* separator) {
-  std::string text;
-  for (const double value : values) {
-    text += fmt::format("{}{}", text.empty() ? "" : separator, value);
-  }
-  return text;
-}
-
-std::string numbers(const Eigen::Vector3d& v) {
+std::string three(const Eigen::Vector3d& v) {
   return numbers({v.data(), 3}, ",");
 }
 
@@ -55,20 +44,19 @@ class EurocWriter : public Writer {
     const sim::Observation& o = frame.now;
     std::string& imu = output.rows["imu"];
     for (const sim::ImuSample& sample : o.imu) {
-      imu += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.gyro_radps),
-                         numbers(sample.accel_mps2));
+      imu += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.gyro_radps),
+                         three(sample.accel_mps2));
     }
     std::string& truth = output.rows["imu_truth"];
     for (const sim::ImuTruth& state : o.imu_truth) {
       const Eigen::Quaterniond q = quaternion_of(state.T_WS);
-      truth +=
-          fmt::format("{},{},{},{},{},{},{},{},{}\n", kEpoch_ns + state.t_ns, numbers(state.T_WS.p),
-                      q.w(), q.x(), q.y(), q.z(), numbers(state.v_WS_mps),
-                      numbers(state.gyro_bias_radps), numbers(state.accel_bias_mps2));
+      truth += fmt::format("{},{},{},{},{},{},{},{},{}\n", kEpoch_ns + state.t_ns,
+                           three(state.T_WS.p), q.w(), q.x(), q.y(), q.z(), three(state.v_WS_mps),
+                           three(state.gyro_bias_radps), three(state.accel_bias_mps2));
     }
     std::string& odometry = output.rows["odometry"];
     for (const sim::OdometrySample& sample : o.odometry) {
-      odometry += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.velocity_mps),
+      odometry += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.velocity_mps),
                               sample.yaw_rate_radps.value());
     }
     const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
@@ -113,16 +101,18 @@ class EurocWriter : public Writer {
   }
 
   std::string camera_yaml() const {
-    const sim::Pinhole& camera = info_.calibration.camera;
+    const sim::Lens& lens = info_.calibration.optics.lens();
+    const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
     const sim::Pose T_SC = info_.calibration.T_BS.inverse() * info_.calibration.T_BC;
     return sensor_yaml("camera", "simulated; x right, y down, z forward", T_SC) +
            fmt::format(
                "\n# Pixels: (0, 0) is the centre of the top-left one.\nrate_hz: {}\nresolution: "
                "[{}, {}]\ncamera_model: pinhole\nintrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv\n"
-               "distortion_model: radial-tangential\ndistortion_coefficients: [0.0, 0.0, 0.0, "
-               "0.0]\n",
-               info_.scenario.camera.rate_hz, camera.width_px, camera.height_px, camera.focal_px,
-               camera.focal_px, camera.centre_px.x(), camera.centre_px.y());
+               "distortion_model: {}\ndistortion_coefficients: [{}]\n",
+               info_.scenario.camera.rate_hz, lens.width_px, lens.height_px, lens.fu_px, lens.fv_px,
+               lens.cu_px, lens.cv_px, is_fisheye ? "equidistant" : "radial-tangential",
+               lens.coefficients.empty() ? "0.0, 0.0, 0.0, 0.0"
+                                         : numbers(four_coefficients(lens), ", "));
   }
 
   std::string odometry_yaml() const {

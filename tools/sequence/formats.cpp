@@ -24,6 +24,11 @@ TUM (`--formats tum`), a pose a line, `t_s x y z qx qy qz qw`, exact:
 
 * `tum/camera.txt`: of C in W at each frame; `tum/imu.txt`: of S in W at each reading of the IMU.
 )";
+constexpr std::string_view kKalibr = R"(
+Kalibr (`--formats kalibr`):
+
+* `kalibr/camchain.yaml`: intrinsics, distortion, `T_cam_imu`; `kalibr/imu.yaml`: noise of the IMU.
+)";
 constexpr std::string_view kMot = R"(
 MOTChallenge (`--formats mot`); frames, ids and pixels count from 1:
 
@@ -82,6 +87,7 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats{
       {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer},
       {"tum", "trajectories: TUM's text files", kTum, make_tum_writer},
+      {"kalibr", "calibration of camera and IMU: Kalibr's YAML", kKalibr, make_kalibr_writer},
       {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer},
       {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer},
       {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer},

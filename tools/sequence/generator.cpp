@@ -46,10 +46,10 @@ class FrameMaker {
         check_imu(info_.scenario.imu, info_.calibration.gravity_mps2, now));
     std::optional<TrueFlow> motion;
     if (next != nullptr) {
-      motion = true_flow(info_.calibration.camera, now.truth, now.geom,
+      motion = true_flow(info_.calibration.optics, now.truth, now.geom,
                          {next->truth.depth_m, next->geom});
       checks["flow_px"].add(
-          check_flow(info_.calibration.camera, now, *next, motion->full_px, motion->seen));
+          check_flow(info_.calibration.optics, now, *next, motion->full_px, motion->seen));
       checks["picture_share_of_block"].add(check_picture(now, *next, *motion));
     }
     const cv::Mat1w mask = object_mask(now.truth);

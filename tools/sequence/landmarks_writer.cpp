@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "filter/detect/fast.h"
+#include "sim/camera/rectifier.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/replay_settings.h"
@@ -20,22 +21,24 @@ std::string or_empty(double number) {
 class LandmarksWriter : public Writer {
  public:
   explicit LandmarksWriter(const SequenceInfo& info)
-      : info_(info), detector_(info.scenario.fast_threshold) {}
+      : info_(info),
+        detector_(info.scenario.fast_threshold),
+        rectifier_(info.calibration.optics.lens(), info.calibration.optics.size_px()) {}
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Observation& o = frame.now;
     cv::Mat1b grey;
     cv::cvtColor(o.image, grey, cv::COLOR_BGR2GRAY);
     const std::vector<Eigen::Vector2f> corners = detector_.detect(grey);
-    const std::vector<sim::CornerTruth> truth = sim::label_corners(
-        info_.calibration.camera, o.truth, corners, info_.scenario.truth_min_depth_m);
     bench::FrameRecord seen;
     seen.index = o.index;
     seen.t_ns = o.t_ns + kEpoch_ns;
     seen.corners_px = corners;
-    seen.corner_truth = truth;
-    seen.object_truth = o.objects;
+    rectifier_.rectify(seen.corners_px);
+    seen.corner_truth = labels_of(o.truth, seen.corners_px);
+    seen.object_truth = rectifier_.rectified(o.objects, o.truth.object);
     output.rows["truth"] = bench::seen_line(seen) + '\n';
+    const std::vector<sim::CornerTruth> truth = labels_in_picture(o.truth, corners);
     std::string& rows = output.rows["landmarks"];
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const sim::CornerTruth& corner = truth[i];
@@ -61,8 +64,39 @@ class LandmarksWriter : public Writer {
   }
 
  private:
+  std::vector<sim::CornerTruth> labels_of(const sim::FrameTruth& truth,
+                                          std::span<const Eigen::Vector2f> corners_px) const {
+    return sim::label_corners(info_.calibration.camera, truth, corners_px,
+                              info_.scenario.truth_min_depth_m, &info_.calibration.optics);
+  }
+
+  /// The truth of corners of the picture, with motions in the picture; labels are those of the
+  /// corners in the pinhole.
+  std::vector<sim::CornerTruth> labels_in_picture(const sim::FrameTruth& truth,
+                                                  std::span<const Eigen::Vector2f> corners) const {
+    const sim::Pinhole& camera = info_.calibration.camera;
+    const sim::Optics& optics = info_.calibration.optics;
+    if (optics.is_pinhole()) return labels_of(truth, corners);
+    std::vector<Eigen::Vector2f> straight;
+    for (const Eigen::Vector2f& corner : corners) {
+      straight.push_back(
+          camera.project(optics.back_project(corner.cast<double>(), 1)).cast<float>());
+    }
+    std::vector<sim::CornerTruth> labels = labels_of(truth, straight);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const auto in_picture = [&](Eigen::Vector2d& motion_px) {
+        const Eigen::Vector2d goal_px = straight[i].cast<double>() + motion_px;
+        motion_px = optics.project(camera.back_project(goal_px, 1)) - corners[i].cast<double>();
+      };
+      in_picture(labels[i].motion_px);
+      in_picture(labels[i].static_motion_px);
+    }
+    return labels;
+  }
+
   SequenceInfo info_;
   FastDetector detector_;
+  sim::Rectifier rectifier_;
 };
 
 }  // namespace

@@ -1,8 +1,27 @@
 #include "tools/sequence/pose_text.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 namespace lcs::sequence {
+
+/// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers.
+std::string numbers(std::span<const double> values, const char* separator) {
+  std::string text;
+  for (const double value : values) {
+    text += fmt::format("{}{}", text.empty() ? "" : separator, value);
+  }
+  return text;
+}
+
+std::vector<double> four_coefficients(const sim::Lens& lens) {
+  std::vector<double> coefficients = lens.coefficients;
+  if (coefficients.empty() || (coefficients.size() == 5 && coefficients[4] == 0)) {
+    coefficients.resize(4);
+  }
+  return coefficients;
+}
 
 Eigen::Quaterniond quaternion_of(const sim::Pose& pose) {
   Eigen::Quaterniond q(pose.R);

@@ -1,14 +1,24 @@
 /// \file
-/// Poses in text formats. Numbers have the shortest form that reads back to the same bits.
+/// Poses and lenses in text formats. Numbers have the shortest form that reads back to the same
+/// bits.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "sim/pose.h"
+#include "sim/camera/optics.h"
 
 namespace lcs::sequence {
+
+/// Numbers with a separator between them.
+std::string numbers(std::span<const double> values, const char* separator);
+
+/// The coefficients of a distortion as Kalibr has them: four, zeros if there is none. A k3 other
+/// than 0, which Kalibr's radtan lacks, is the fifth.
+std::vector<double> four_coefficients(const sim::Lens& lens);
 
 /// The unit quaternion of a pose's rotation, with w >= 0 so that it is unique.
 Eigen::Quaterniond quaternion_of(const sim::Pose& pose);

@@ -2,12 +2,33 @@
 
 #include <fmt/format.h>
 
+#include "tools/sequence/pose_text.h"
+
 namespace lcs::sequence {
 namespace {
 
+std::string camera_text(const sim::Lens& lens) {
+  if (lens.is_pinhole()) {
+    return fmt::format(
+        "Camera: a pinhole without distortion, f = {} px in both directions, principal point ({}, "
+        "{}).",
+        lens.fu_px, lens.cu_px, lens.cv_px);
+  }
+  const sim::Pinhole pinhole = lens.pinhole();
+  const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
+  return fmt::format(
+      R"(Camera: fx = {} px, fy = {} px, principal point ({}, {}),
+distortion {} = [{}], as OpenCV {} has it. Pictures, depth, masks, boxes, flow and corners are
+of the distorted picture. `truth.jsonl` alone is of the undistorted picture that detectors get from `lcs`, a pinhole with
+f = {} px in both directions and the same principal point; labels of corners hold there.)",
+      lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px,
+      is_fisheye ? "k1, k2, k3, k4" : "k1, k2, p1, p2, k3", numbers(lens.coefficients, ", "),
+      is_fisheye ? "(fisheye)" : "(pinhole)", pinhole.focal_px);
+}
+
 std::string head(const SequenceInfo& info) {
   const scenario::Scenario& s = info.scenario;
-  const sim::Pinhole& camera = info.calibration.camera;
+  const sim::Lens& lens = info.calibration.optics.lens();
   return fmt::format(
       R"(# {name}
 
@@ -24,11 +45,11 @@ coordinates of a point in B to those in A.
 | frame | axes |
 |---|---|
 | W, world (EuRoC's R) | z up; gravity is {gravity} m/s^2 along -z |
-| B, rover | x ahead, y left, z up; origin on the ground below its middle |
+| B, rover | x ahead, y left, z up; {origin} |
 | S, IMU (EuRoC's body) | as `T_BS` in `lcs.json` has it; an accelerometer at rest reads +9.81 m/s^2 upwards |
 | C, camera | x right, y down, z forward |
 
-Camera: a pinhole without distortion, f = {focal} px in both directions, principal point ({cx}, {cy}).
+{camera}
 Pixels: x right, y down, (0, 0) is the centre of the top-left one. The picture is taken in an instant.
 
 Frames count from 0 (in MOTChallenge's and COCO's files from 1). Times are nanoseconds, {epoch} at the
@@ -40,10 +61,12 @@ belong to the very same moment; there is no delay between sensors.
 )",
       fmt::arg("name", s.name), fmt::arg("purpose", s.purpose.empty() ? s.name : s.purpose),
       fmt::arg("frames", s.frames), fmt::arg("rate", s.camera.rate_hz),
-      fmt::arg("width", camera.width_px), fmt::arg("height", camera.height_px),
+      fmt::arg("width", lens.width_px), fmt::arg("height", lens.height_px),
       fmt::arg("seed", s.seed), fmt::arg("gravity", info.calibration.gravity_mps2),
-      fmt::arg("focal", camera.focal_px), fmt::arg("cx", camera.centre_px.x()),
-      fmt::arg("cy", camera.centre_px.y()), fmt::arg("epoch", kEpoch_ns));
+      fmt::arg("camera", camera_text(lens)),
+      fmt::arg("origin", info.calibration.on_ground ? "origin on the ground below its middle"
+                                                    : "origin at the IMU"),
+      fmt::arg("epoch", kEpoch_ns));
 }
 
 constexpr const char* kPictures = R"(

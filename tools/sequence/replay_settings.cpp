@@ -1,5 +1,7 @@
 #include "tools/sequence/replay_settings.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,6 +23,7 @@ using Node = bench::JsonNode;
 constexpr const char* kImu = "imu";
 constexpr const char* kTruth = "truth";
 constexpr const char* kFromPicture = "auto";
+constexpr const char* kEquidistant = "equidistant";
 
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -73,13 +76,34 @@ sim::Pose pose_in(const Node& node) {
   }
 }
 
-void read_calibration(const Node& node, sim::Calibration& calibration) {
+void read_calibration(const Node& node, const std::string& file, ReplaySettings& settings) {
+  sim::Calibration& calibration = settings.calibration;
   const Node camera = node["camera"];
   const auto centre = camera["centre_px"].numbers<2>();
-  calibration.camera.focal_px = above_zero_in(camera["focal_px"]);
-  calibration.camera.centre_px = {centre[0], centre[1]};
-  calibration.camera.width_px = pixels_in(camera["width_px"]);
-  calibration.camera.height_px = pixels_in(camera["height_px"]);
+  sim::Lens& lens = settings.lens;
+  const Node focal = camera["focal_px"];
+  const auto focal_px =
+      focal.is_list() ? focal.numbers<2>() : std::array{focal.number(), focal.number()};
+  focal.require(std::ranges::all_of(focal_px, [](double f) { return f > 0 && f <= kMost; }),
+                "above 0 and at most a million");
+  lens = {.fu_px = focal_px[0],
+          .fv_px = focal_px[1],
+          .cu_px = centre[0],
+          .cv_px = centre[1],
+          .coefficients = {},
+          .width_px = pixels_in(camera["width_px"]),
+          .height_px = pixels_in(camera["height_px"]),
+          .source = {file, 0}};
+  if (camera.has("distortion")) {
+    const Node distortion = camera["distortion"];
+    scenario::Distortion read{.equidistant = !distortion.is_list(), .coefficients = {}};
+    const Node coefficients = read.equidistant ? distortion[kEquidistant] : distortion;
+    coefficients.each([&](const Node& number) { read.coefficients.push_back(number.number()); });
+    coefficients.require(read.coefficients.size() == (read.equidistant ? 4 : 5),
+                         read.equidistant ? "a list of 4 numbers" : "a list of 5 numbers");
+    require_moderate(coefficients, read.coefficients);
+    sim::set_distortion(read, lens);
+  }
   calibration.T_BC = pose_in(node["T_BC"]);
   calibration.T_BS = pose_in(node["T_BS"]);
   calibration.T_WB_start = pose_in(node["T_WB_start"]);
@@ -121,7 +145,17 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
 
 std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
                           const std::optional<scenario::Origin>& origin) {
-  const sim::Pinhole& camera = calibration.camera;
+  const sim::Lens& lens = calibration.optics.lens();
+  Json camera = {
+      {"focal_px", lens.fu_px == lens.fv_px ? Json(lens.fu_px) : Json{lens.fu_px, lens.fv_px}},
+      {"centre_px", {lens.cu_px, lens.cv_px}},
+      {"width_px", lens.width_px},
+      {"height_px", lens.height_px}};
+  if (!lens.coefficients.empty()) {
+    const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
+    camera["distortion"] =
+        is_fisheye ? Json{{kEquidistant, lens.coefficients}} : Json(lens.coefficients);
+  }
   Json noise;
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
   Json filter = Json::object();
@@ -133,11 +167,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"seed", scenario.seed},
       {"start_ns", kEpoch_ns},
       {"camera_rate_hz", scenario.camera.rate_hz},
-      {"camera",
-       {{"focal_px", camera.focal_px},
-        {"centre_px", {camera.centre_px.x(), camera.centre_px.y()}},
-        {"width_px", camera.width_px},
-        {"height_px", camera.height_px}}},
+      {"camera", camera},
       {"T_BC", matrix_of(calibration.T_BC)},
       {"T_BS", matrix_of(calibration.T_BS)},
       {"T_WB_start", matrix_of(calibration.T_WB_start)},
@@ -165,7 +195,7 @@ ReplaySettings read_settings(const std::filesystem::path& file) {
   return bench::read_json(file, kSettingsDocument, [&](const Node& node) {
     ReplaySettings settings;
     read_scenario(node, file.string(), settings.scenario);
-    read_calibration(node, settings.calibration);
+    read_calibration(node, file.string(), settings);
     settings.start_ns = node["start_ns"].whole();
     const auto most_ns = std::numeric_limits<std::int64_t>::max() / 2;  // differences fit
     const bool is_time = settings.start_ns >= -most_ns && settings.start_ns <= most_ns;

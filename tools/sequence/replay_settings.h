@@ -33,8 +33,9 @@ struct ReplaySettings {
   /// Name, origin, seed, rates, noise, odometry, detection and filter of the scenario; the rest has
   /// default values.
   scenario::Scenario scenario;
-  sim::Calibration calibration;
-  std::int64_t start_ns = 0;  ///< the run's time 0, in the sequence's time
+  sim::Calibration calibration;  ///< without optics and camera
+  sim::Lens lens;                ///< of the pictures
+  std::int64_t start_ns = 0;     ///< the run's time 0, in the sequence's time
 };
 
 /// \param origin the world of the pictures, from the simulation.

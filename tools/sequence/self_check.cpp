@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -80,6 +81,25 @@ std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vec
          fy * ((1 - fx) * w(x, y + 1) + fx * w(x + 1, y + 1));
 }
 
+/// The same for any optics: on a flat surface the inverse depth is linear in the ray.
+std::optional<double> plane_inverse_depth(const sim::Optics& camera, const sim::FrameTruth& truth,
+                                          const Vector2d& px) {
+  const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
+  if (x < 1 || y < 1 || x + 2 >= truth.depth_m.cols || y + 2 >= truth.depth_m.rows) return {};
+  Eigen::Matrix<double, 16, 3> rays;
+  Eigen::Matrix<double, 16, 1> w;
+  for (int i = 0; i < 16; ++i) {
+    const cv::Point at(x - 1 + i % 4, y - 1 + i / 4);
+    if (truth.object(at) != truth.object(y, x)) return {};
+    rays.row(i) = camera.ray(at.x, at.y).homogeneous();
+    w[i] = 1 / static_cast<double>(truth.depth_m(at));
+  }
+  const Vector3d plane = (rays.transpose() * rays).ldlt().solve(rays.transpose() * w);
+  const double centre = w[5];
+  if ((rays * plane - w).cwiseAbs().maxCoeff() > kFlatAbsolute + kFlatRelative * centre) return {};
+  return plane.dot(camera.back_project(px, 1));
+}
+
 /// Whether the surface at a pixel is nearly as large in the next frame: textures keep their detail.
 bool is_steady(const cv::Mat2f& motion_px, int x, int y) {
   const auto change_px = [&](int column, int row) {
@@ -109,7 +129,7 @@ State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, 
 
 }  // namespace
 
-Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
+Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen) {
   const sim::Pose T_CW = now.truth.now.T_WC.inverse();
@@ -127,7 +147,9 @@ Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
       const int object = now.truth.object(y, x);
       const auto there = cv::Point(static_cast<int>(goal.x()), static_cast<int>(goal.y()));
       if (object < 0 || next.truth.object(there) != object) continue;
-      const std::optional<double> inverse_depth = flat_inverse_depth(next.truth, goal);
+      const std::optional<double> inverse_depth =
+          camera.is_pinhole() ? flat_inverse_depth(next.truth, goal)
+                              : plane_inverse_depth(camera, next.truth, goal);
       if (!inverse_depth) continue;
       const Vector3d p_N = camera.back_project(goal, 1 / *inverse_depth);
       const Vector3d p_C = T_CN[static_cast<std::size_t>(object)] * p_N;
@@ -309,11 +331,10 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
   agreement.add(turned_rad / most_rad);
   agreement.add(off_mps / most_mps);
   if (!(turned_rad <= most_rad && off_mps <= most_mps)) {
-    disagree(
-        frame.index,
-        "the IMU's readings lead {:.2e} rad and {:.2e} m/s away from the poses, where the "
-        "noise allows for {:.2e} rad and {:.2e} m/s",
-        turned_rad, off_mps, most_rad, most_mps);
+    disagree(frame.index,
+             "the IMU's readings lead {:.2e} rad and {:.2e} m/s away from the poses, where the "
+             "noise allows for {:.2e} rad and {:.2e} m/s",
+             turned_rad, off_mps, most_rad, most_mps);
   }
   return agreement;
 }

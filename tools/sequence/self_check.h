@@ -40,7 +40,7 @@ struct Agreement {
 /// pixels of every fourth row and column, if the depth round the goal is that of a flat surface and
 /// so can be interpolated. \return distances between start and end, px. \throws TruthError beyond
 /// 0.05 px.
-Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
+Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen);
 

@@ -67,15 +67,15 @@ struct NextView : Surfaces {
 
 }  // namespace
 
-TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
+TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
                    const cv::Mat1i& surface_id, const Surfaces& next_surfaces) {
   const std::vector<Carrier> carriers = carriers_of(truth);
   const NextView next{next_surfaces};
   const cv::Size size = truth.depth_m.size();
   TrueFlow field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
-  const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
+  const double f = camera.lens().fu_px, cx = camera.lens().cu_px, cy = camera.lens().cv_px;
 
-  // Along a row, a body's rotated ray changes by a constant step per pixel.
+  // Along a row of a pinhole, a body's rotated ray changes by a constant step per pixel.
   std::vector<Eigen::Vector3d> row_start(carriers.size()), step(carriers.size());
   for (int y = 0; y < size.height; ++y) {
     for (std::size_t id = 0; id < carriers.size(); ++id) {
@@ -98,11 +98,19 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
         const Eigen::Vector3d& t = carriers[id].T_NC.p;
-        const double z = row_start[id].z() + x * step[id].z() + w * t.z();
+        Eigen::Vector3d goal = row_start[id] + x * step[id] + w * t;
+        if (!camera.is_pinhole()) {
+          goal = carriers[id].T_NC.R * camera.ray(x, y).homogeneous() + w * t;
+        }
+        const double z = goal.z();
         if (z < kInFront) return;
         const double scale = f / z;
-        const double u = scale * (row_start[id].x() + x * step[id].x() + w * t.x()) + cx;
-        const double v = scale * (row_start[id].y() + x * step[id].y() + w * t.y()) + cy;
+        double u = scale * goal.x() + cx, v = scale * goal.y() + cy;
+        if (!camera.is_pinhole()) {
+          const Eigen::Vector2d px = camera.project(goal);
+          if (!px.allFinite()) return;
+          u = px.x(), v = px.y();
+        }
         motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
         is_seen = next.holds(u, v) &&
                   (!is_real || next.shows(u, v, static_cast<float>(z / w), surface[x]));

@@ -10,7 +10,8 @@
 namespace lcs::sequence {
 
 /// Forward flow in pixels. NaN if undefined: on the rover itself, which moves with the camera, on
-/// the sky, which has no depth, and for points in or behind the camera plane at k+1.
+/// the sky, which has no depth, for points in or behind the camera plane at k+1, and for points
+/// where the distortion has folded back.
 struct TrueFlow {
   cv::Mat2f full_px;  ///< of the point, moving with its body
   cv::Mat2f ego_px;   ///< of the same point fixed in the world: the camera's own part
@@ -29,7 +30,7 @@ struct Surfaces {
 
 /// \param surface_id of frame k. A point is visible in frame k+1 only on its own surface: a thin
 /// body may have no pixel there, and the depth of the ground behind it may be like its own.
-TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
+TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
                    const cv::Mat1i& surface_id, const Surfaces& next);
 
 }  // namespace lcs::sequence

@@ -16,6 +16,7 @@ class PictureWriter : public Writer {
 };
 
 std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_kalibr_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_mot_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info);

@@ -8,10 +8,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/pose.h"
-#include "tools/replay/recorded.h"
+#include "sim/camera/optics.h"
+#include "sim/truth/truth.h"
 
-namespace lcs::replay {
+namespace lcs::sim {
 
 class Rectifier {
  public:
@@ -19,7 +19,7 @@ class Rectifier {
   Rectifier(const Lens& lens, cv::Size size_px);
 
   /// The pinhole has the lens's principal point and the mean of its focal lengths.
-  const sim::Pinhole& camera() const { return camera_; }
+  const Pinhole& camera() const { return camera_; }
 
   /// The lens has no distortion and square pixels; rectification then changes no bit.
   bool is_pinhole() const { return map_x_.empty(); }
@@ -27,6 +27,15 @@ class Rectifier {
   /// Removes corners outside the pinhole's picture, and those without a unique ray.
   void rectify(std::vector<Eigen::Vector2f>& corners_px) const;
   void rectify(cv::Mat3b& picture) const;
+  /// \name Truth of each pixel, by the nearest pixel; -1 and +inf where the picture shows nothing.
+  ///@{
+  void rectify(cv::Mat1i& ids) const;
+  void rectify(cv::Mat1f& depth_m) const;
+  ///@}
+  /// Boxes and masks in the pinhole's picture, without objects that it does not show.
+  /// \param objects by id. \param ids of the picture, as `FrameTruth::object`
+  std::vector<ObjectTruth> rectified(const std::vector<ObjectTruth>& objects,
+                                     const cv::Mat1i& ids) const;
   /// Replaces a box, in pixel edges, by the bounding box of its rectified outline.
   void rectify(double& left, double& top, double& right, double& bottom) const;
 
@@ -44,8 +53,8 @@ class Rectifier {
   cv::Matx33d from_, to_;
   cv::Mat coefficients_;
   double xi_, alpha_;  ///< as in `Lens`
-  sim::Pinhole camera_;
+  Pinhole camera_;
   cv::Mat map_x_, map_y_;  ///< empty for a pinhole lens
 };
 
-}  // namespace lcs::replay
+}  // namespace lcs::sim

@@ -1,11 +1,12 @@
-#include "tools/replay/rectifier.h"
+#include "sim/camera/rectifier.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace lcs::replay {
+namespace lcs::sim {
 namespace {
 
 constexpr double kLeastCovered = 0.1;
@@ -20,14 +21,11 @@ Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
       coefficients_(lens.coefficients, true),
       xi_(lens.xi),
       alpha_(lens.alpha),
-      camera_{0.5 * (lens.fu_px + lens.fv_px) / (1 + lens.xi),
-              {lens.cu_px, lens.cv_px},
-              size_px.width,
-              size_px.height} {
-  const bool is_straight = std::all_of(lens.coefficients.begin(), lens.coefficients.end(),
-                                       [](double c) { return c == 0; });
+      camera_(lens.pinhole()) {
+  camera_.width_px = size_px.width;
+  camera_.height_px = size_px.height;
   to_ = cv::Matx33d(camera_.focal_px, 0, lens.cu_px, 0, camera_.focal_px, lens.cv_px, 0, 0, 1);
-  if (lens.fu_px == lens.fv_px && is_straight && !is_equidistant_ && !is_spherical()) return;
+  if (lens.is_pinhole()) return;
   if (is_spherical()) {
     map_by_points();
   } else if (is_equidistant_) {
@@ -164,10 +162,42 @@ void Rectifier::rectify(double& left, double& top, double& right, double& bottom
 }
 
 void Rectifier::rectify(cv::Mat3b& picture) const {
-  if (map_x_.empty()) return;
+  if (is_pinhole()) return;
   cv::Mat3b straight;
   cv::remap(picture, straight, map_x_, map_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   picture = straight;
 }
 
-}  // namespace lcs::replay
+void Rectifier::rectify(cv::Mat1i& ids) const {
+  if (is_pinhole()) return;
+  cv::Mat1i straight;
+  cv::remap(ids, straight, map_x_, map_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, -1);
+  ids = straight;
+}
+
+void Rectifier::rectify(cv::Mat1f& depth_m) const {
+  if (is_pinhole()) return;
+  cv::Mat1f straight;
+  cv::remap(depth_m, straight, map_x_, map_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            std::numeric_limits<float>::infinity());
+  depth_m = straight;
+}
+
+std::vector<ObjectTruth> Rectifier::rectified(const std::vector<ObjectTruth>& objects,
+                                              const cv::Mat1i& ids) const {
+  if (is_pinhole() || objects.empty()) return objects;
+  cv::Mat1i straight = ids;
+  rectify(straight);
+  const std::vector<ObjectTruth> boxes = modal_boxes(straight, objects.back().object);
+  std::vector<ObjectTruth> all;
+  for (const ObjectTruth& object : objects) {
+    ObjectTruth box = boxes[static_cast<std::size_t>(object.object - 1)];
+    if (box.visible_px == 0) continue;
+    box.visible_fraction = object.visible_fraction;
+    box.moving = object.moving;
+    all.push_back(std::move(box));
+  }
+  return all;
+}
+
+}  // namespace lcs::sim
