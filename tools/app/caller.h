@@ -21,7 +21,7 @@ class Progress {
  public:
   virtual ~Progress() = default;
   /// \param done number of units that are processed.
-  virtual void show(int /*done*/) {}
+  virtual void show([[maybe_unused]] int done) {}
 };
 
 /// The defaults do nothing.
@@ -37,8 +37,9 @@ class Caller {
   virtual void note(const std::string& /*line*/) {}
   virtual void warn(const std::vector<std::string>& /*lines*/) {}
   /// \param total number of units to process. \param unit its plural, such as "frames".
-  virtual std::unique_ptr<Progress> progress(const std::string& /*name*/, int /*total*/,
-                                             const std::string& /*unit*/) {
+  virtual std::unique_ptr<Progress> progress([[maybe_unused]] const std::string& name,
+                                             [[maybe_unused]] int total,
+                                             [[maybe_unused]] const std::string& unit) {
     return std::make_unique<Progress>();
   }
 };

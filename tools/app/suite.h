@@ -52,9 +52,10 @@ class SuiteWatch {
  public:
   virtual ~SuiteWatch() = default;
   /// \param detectors names, the suite's own first. \param runs the result of each detector.
-  virtual void finished(const suite::SuiteProgress& /*progress*/, const std::string& /*scenario*/,
-                        const std::vector<std::string>& /*detectors*/,
-                        std::span<const suite::RunResult* const> /*runs*/) {}
+  virtual void finished([[maybe_unused]] const suite::SuiteProgress& progress,
+                        [[maybe_unused]] const std::string& scenario,
+                        [[maybe_unused]] const std::vector<std::string>& detectors,
+                        [[maybe_unused]] std::span<const suite::RunResult* const> runs) {}
   virtual void show(const suite::SuiteProgress& /*progress*/) {}
   /// Removes the displayed progress.
   virtual void wipe() {}

@@ -1,8 +1,8 @@
-// Typesets the formulas of each page, also after a search result opened it.
-document$.subscribe(({ body }) => {
-  for (const formula of body.querySelectorAll(".arithmatex")) {
-    const display = formula.textContent.startsWith("\\[");
-    const text = formula.textContent.replace(/^\\[([]|\\[)\]]$/g, "");
-    katex.render(text, formula, { displayMode: display, throwOnError: true });
-  }
-});
+// Typesets the formulas of the page. One that KaTeX cannot read is shown as its text, in red.
+for (const formula of document.querySelectorAll(".arithmatex")) {
+  const text = formula.textContent;
+  katex.render(text.replace(/^\\[([]|\\[)\]]$/g, ""), formula, {
+    displayMode: text.startsWith("\\["),
+    throwOnError: false,
+  });
+}

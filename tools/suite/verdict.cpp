@@ -250,13 +250,19 @@ Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
 std::string text_of(const Verdict& verdict) {
   std::string text;
   for (const Remark& remark : verdict.remarks) {
-    std::vector<const char*> words;
-    for (const Standing standing : remark.standings) words.push_back(word_of(standing));
-    text += fmt::format("{}: {}\n", fmt::join(words, ", "), remark.scenario);
+    text += fmt::format("{}: {}\n", words_of(remark.standings), remark.scenario);
     for (const std::string& reason : remark.reasons) text += fmt::format("  {}\n", reason);
   }
   if (!verdict.note.empty()) text += verdict.note + '\n';
   return text;
+}
+
+std::string words_of(const std::vector<Standing>& standings) {
+  std::string words;
+  for (const Standing standing : standings) {
+    words += fmt::format("{}{}", words.empty() ? "" : ", ", word_of(standing));
+  }
+  return words;
 }
 
 const char* word_of(Standing standing) {
