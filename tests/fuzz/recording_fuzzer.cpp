@@ -76,7 +76,7 @@ scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
   recording.source = {"asked", 1};
   recording.path = folder;
   if (bits & 2) recording.fps = 10;
-  if (bits & 4) recording.focal_px = 300;
+  if (bits & 4) recording.focal_px = Eigen::Vector2d(300, 300);
   if (bits & 8) recording.mount_rpy_rad = Eigen::Vector3d(0, 0.1, 0);
   if (bits & 16) recording.every = 2;
   const auto file = [&](const char* name) {

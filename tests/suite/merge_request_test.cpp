@@ -53,7 +53,7 @@ class MergeRequest : public testing::Test {
   std::string picture(const char* name) const { return bench::read(home_.path() / "out" / name); }
   bool has(const char* name) const { return fs::exists(home_.path() / "out" / name); }
 
-  const TemporaryFolder home_;
+  const bench::TemporaryFolder home_;
   const std::vector<std::optional<double>> good_{0.80, 0.81, 0.82}, bad_{0.50, 0.51, 0.52};
 };
 

@@ -335,14 +335,18 @@ void bind_suites(py::module_& module) {
       "Joins the folders of the parts of a suite (shard). Returns as suite.");
   module.def(
       "compare",
-      [](const fs::path& before, const fs::path& after, const std::string& metric) {
+      [](const fs::path& before, const fs::path& after, const std::string& metric,
+         const std::string& markdown, const std::string& pictures_at) {
         const auto [old, now, comparison, verdict] =
-            app::compare({before.string(), after.string(), metric});
+            app::compare({before.string(), after.string(), metric, markdown, pictures_at});
         return dict_of(comparison, verdict);
       },
-      "before"_a, "after"_a, py::kw_only(), "metric"_a = "",
+      "before"_a, "after"_a, py::kw_only(), "metric"_a = "", "markdown"_a = "",
+      "pictures_at"_a = "",
       "The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).\n\n"
       "before, after: folders, or their suite.json. metric: a regular expression.\n"
+      "markdown: a folder for a summary in Markdown, whose pictures will be at the address "
+      "pictures_at.\n"
       "Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, "
       "with group\n"
       "or scenario, metric, before, after, change, half (of its 95 % interval; None where "

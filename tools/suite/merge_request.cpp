@@ -176,7 +176,7 @@ std::string remarks_text(const Verdict& verdict) {
   std::string text = "\n<details><summary>Scenarios, worst first</summary>\n\n";
   for (std::size_t i = 0; i < std::min(kMostRemarks, verdict.remarks.size()); ++i) {
     const Remark& remark = verdict.remarks[i];
-    text += fmt::format("* `{}` {}: {}\n", cell(remark.scenario), words_of(remark.standings),
+    text += fmt::format("* `{}` {}: {}\n", cell(remark.scenario), text_of(remark.standings),
                         cell(fmt::format("{}", fmt::join(remark.reasons, "; "))));
   }
   if (verdict.remarks.size() > kMostRemarks) {

@@ -250,14 +250,14 @@ Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
 std::string text_of(const Verdict& verdict) {
   std::string text;
   for (const Remark& remark : verdict.remarks) {
-    text += fmt::format("{}: {}\n", words_of(remark.standings), remark.scenario);
+    text += fmt::format("{}: {}\n", text_of(remark.standings), remark.scenario);
     for (const std::string& reason : remark.reasons) text += fmt::format("  {}\n", reason);
   }
   if (!verdict.note.empty()) text += verdict.note + '\n';
   return text;
 }
 
-std::string words_of(const std::vector<Standing>& standings) {
+std::string text_of(const std::vector<Standing>& standings) {
   std::string words;
   for (const Standing standing : standings) {
     words += fmt::format("{}{}", words.empty() ? "" : ", ", word_of(standing));

@@ -58,6 +58,6 @@ std::string text_of(const Verdict& verdict);
 /// The word for the user: such as "regressed".
 const char* word_of(Standing standing);
 /// Such as "passed, regressed".
-std::string words_of(const std::vector<Standing>& standings);
+std::string text_of(const std::vector<Standing>& standings);
 
 }  // namespace lcs::suite
