@@ -287,6 +287,7 @@ TEST_F(Outputs, AreNoInputsNorLieInsideOrRoundThem) {
       {"score", {"said.csv", "run", "run/figures.json"}},
       {"suite", {"scenarios/mine.yaml", "scenarios"}},
       {"merge", {"part", "part/deep/out"}},
+      {"compare", {"suite", "suite/deep/out"}},
       {"generate", {"scenarios/mine.yaml", "scenarios"}},
       {"kinematics", {"scenarios/mine.yaml", "scenarios"}},
       {"world", {"pictures", "pictures/deep/world"}},

@@ -345,11 +345,13 @@ class Reason(enum.IntEnum):
     INHERITED: typing.ClassVar[Reason]
     IN_PSI: typing.ClassVar[Reason]
     NORMAL_EDGE: typing.ClassVar[Reason]
+    NORMAL_NEIGHBOURS: typing.ClassVar[Reason]
     NOT_FINITE: typing.ClassVar[Reason]
     NO_TIME: typing.ClassVar[Reason]
     OUTBID: typing.ClassVar[Reason]
     OUTSIDE: typing.ClassVar[Reason]
     REBEL_EDGE: typing.ClassVar[Reason]
+    REBEL_NEIGHBOURS: typing.ClassVar[Reason]
     TOO_MANY: typing.ClassVar[Reason]
     UNKNOWN: typing.ClassVar[Reason]
     XI_1: typing.ClassVar[Reason]
@@ -358,7 +360,7 @@ class Reason(enum.IntEnum):
     XI_4: typing.ClassVar[Reason]
     XI_5: typing.ClassVar[Reason]
     _member_map_: typing.ClassVar[dict]
-    _member_names_: typing.ClassVar[list] = ['UNKNOWN', 'NOT_FINITE', 'OUTSIDE', 'TOO_MANY', 'IN_PSI', 'NO_TIME', 'NORMAL_EDGE', 'REBEL_EDGE', 'COMER', 'GOER', 'INHERITED', 'FIRST_SIGHTING', 'ALPHA_FIRST', 'XI_5', 'XI_4', 'OUTBID', 'XI_1', 'ALPHA_SECOND', 'ALPHA_BEND', 'ALPHA_ON_FIELD', 'ALPHA_TAKEN', 'ALPHA_THIRD', 'XI_3', 'XI_2']
+    _member_names_: typing.ClassVar[list] = ['UNKNOWN', 'NOT_FINITE', 'OUTSIDE', 'TOO_MANY', 'IN_PSI', 'NO_TIME', 'NORMAL_EDGE', 'REBEL_EDGE', 'NORMAL_NEIGHBOURS', 'REBEL_NEIGHBOURS', 'COMER', 'GOER', 'INHERITED', 'FIRST_SIGHTING', 'ALPHA_FIRST', 'XI_5', 'XI_4', 'OUTBID', 'XI_1', 'ALPHA_SECOND', 'ALPHA_BEND', 'ALPHA_ON_FIELD', 'ALPHA_TAKEN', 'ALPHA_THIRD', 'XI_3', 'XI_2']
     _unhashable_values_: typing.ClassVar[list] = list()
     _use_args_: typing.ClassVar[bool] = True
     _value2member_map_: typing.ClassVar[dict]
@@ -644,11 +646,12 @@ class Verdict(enum.IntEnum):
         """
         Return repr(self).
         """
-def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '') -> dict:
+def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '') -> dict:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
 
     before, after: folders, or their suite.json. metric: a regular expression.
+    markdown: a folder for a summary in Markdown, whose pictures will be at the address pictures_at.
     Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, with group
     or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
     verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
