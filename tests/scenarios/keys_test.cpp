@@ -163,7 +163,8 @@ TEST(Keys, AreAllInTheTextForTheTerminal) {
       EXPECT_TRUE(keys.contains(key)) << key;
     }
   }
-  EXPECT_NE(keys_text().find("camera.fovy: vertical field of view\n"
+  EXPECT_NE(keys_text().find("camera.fovy: vertical field of view, of a centred camera "
+                             "without distortion\n"
                              "    default: `60 deg`\n    values: above 0 and below 180 deg\n"),
             std::string::npos);
 }

@@ -52,7 +52,7 @@ TEST(StandingTable, HasARowForEachDetectorOverWhatItHas) {
   EXPECT_EQ(standing_table(suite, others), head +
                                                "| `lcs` | 0.650 | - | - | - | 1.5 | - |\n"
                                                "| `klt` | 0.650 | - | - | - | 3.0 | 7.0 |\n"
-                                               "\nMeans over 2 scenarios; F1 and recall over the "
+                                               "\nMeans over 3 scenarios; F1 and recall over the "
                                                "2 with F1.\n");
   for (ScenarioResult& world : suite.scenarios) world.drawn = Drawn{"room", 0, {}};
   EXPECT_NE(standing_table(suite, others).find("| `lcs` | 0.650±1.906 |"), std::string::npos)

@@ -51,7 +51,7 @@ std::string scores(const Metrics& metrics) {
   }
   if (value(metrics, "rebel.f1_lost_radial").value_or(0) > kMuch) {
     text += remark(
-        "radial: a mover along the line of sight, whose image moves as that of a static point may "
+        "radial: along the line of sight, where an image moves as that of a static point may "
         "(filter/MODEL.md#limits)");
   }
   text += line("objects", metrics, true,
@@ -89,8 +89,9 @@ std::string table(const Metrics& metrics) {
   }
   const auto size = [&](const char* key) { return metric(key).number(value(metrics, key)); };
   text += fmt::format(
-      "  size     {} items (edges, circles, squares) are kept from frame to frame; a store of "
-      "corners has {} for 5 frames, {} for 8, {} for all\n",
+      "  size     {} items (edges, circles, squares) are kept; 5 frames have {} corners, 8 have "
+      "{}, "
+      "all {}\n",
       size("dimension.mean"), size("dimension.five_frame_mean"), size("dimension.eight_frame_mean"),
       size("dimension.accumulative_final"));
   text += line("time", metrics, false,
