@@ -81,11 +81,11 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const fs::path study = folder_.path() / "study";
   EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"study"});
-  EXPECT_EQ(entries(study), (std::set<std::string>{
-                                "answer.txt", "answer.csv", "kinematics.html", "rotation.csv",
-                                "translation.csv", "foe_distance.csv", "focal_length.csv",
-                                "mount.csv", "drives.csv", "imu.csv", "bumps.csv", "drift.csv",
-                                "run.json"}));
+  EXPECT_EQ(
+      entries(study),
+      (std::set<std::string>{"answer.txt", "answer.csv", "kinematics.html", "rotation.csv",
+                             "translation.csv", "foe_distance.csv", "focal_length.csv", "mount.csv",
+                             "drives.csv", "imu.csv", "bumps.csv", "drift.csv", "run.json"}));
   const std::string text = read(study / "answer.txt");
   EXPECT_NE(result.out.find(text), std::string::npos);
   // Verdicts use the requested tolerance and the scenario's own frame rate and IMU.

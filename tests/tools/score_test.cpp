@@ -121,7 +121,8 @@ TEST_F(Score, MistakesAreToldInOneLineAndNothingIsWritten) {
   } mistakes[] = {
       {{"score"}, "--sequence is required"},
       {{"score", "none"}, "none is no folder; name one that lcs run has left"},
-      {{"score", "."}, ". is a folder of runs, as ./run; name one of these, or the folder of a suite"},
+      {{"score", "."},
+       ". is a folder of runs, as ./run; name one of these, or the folder of a suite"},
       {{"score", "empty"}, "empty/layers.jsonl: there is no such file; "},
       {{"score", "run", "--detections", "bad.csv"},
        "bad.csv:2: there is no frame 4: the sequence has 0 to 3"},

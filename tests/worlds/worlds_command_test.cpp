@@ -152,8 +152,9 @@ TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) 
   EXPECT_EQ(bench::entries(out / "worlds"),
             (std::set<std::string>{"corridor_2000000.jpg", "corridor_2000001.jpg"}));
   const std::string page = bench::read(out / "worlds.html");
-  for (const char* part : {"worlds/corridor_2000001.jpg", "<td>lcs:lab</td>", "<td>klt</td>",
-                           "report.html#corridor_2000001/seed-2000001", "runs/corridor_2000001/seed-2000001/"}) {
+  for (const char* part :
+       {"worlds/corridor_2000001.jpg", "<td>lcs:lab</td>", "<td>klt</td>",
+        "report.html#corridor_2000001/seed-2000001", "runs/corridor_2000001/seed-2000001/"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   // It can be used like any earlier suite.
