@@ -14,6 +14,7 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
+#include "tools/app/command_line.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/csv.h"
@@ -108,16 +109,12 @@ void wait_for_turn(const fs::path& folder, std::optional<bench::FolderLock>& tur
 
 std::vector<std::string> sequence_command(const GenerateRequest& request,
                                           const std::string& scenario, const std::string& out) {
-  std::vector<std::string> command{"generate", scenario, "--out", out, "--quiet"};
-  const auto add = [&](const char* name, const std::string& value) {
-    command.insert(command.end(), {name, value});
-  };
-  if (!request.formats.empty())
-    add("--formats", fmt::format("{}", fmt::join(request.formats, ",")));
-  if (request.frames > 0) add("--frames", std::to_string(request.frames));
-  if (request.seed) add("--seed", std::to_string(*request.seed));
-  for (const std::string& set : request.sets) add("--set", set);
-  return command;
+  CommandLine line({"generate", scenario, "--out", out, "--quiet"});
+  line.add("--formats", fmt::format("{}", fmt::join(request.formats, ",")));
+  if (request.frames > 0) line.add("--frames", std::to_string(request.frames));
+  if (request.seed) line.add("--seed", std::to_string(*request.seed));
+  line.add_each("--set", request.sets);
+  return line.words();
 }
 
 Generated generate(const GenerateRequest& request, Caller& caller) {

@@ -23,18 +23,6 @@ std::size_t terminal_width() {
   return is_known ? size.ws_col : kUsualWidth;
 }
 
-std::string outcome_text(const suite::RunResult& run) {
-  switch (run.outcome) {
-    case suite::Outcome::passed:
-      return "passed";
-    case suite::Outcome::failed:
-      return "failed";
-    case suite::Outcome::error:
-      return "error";
-  }
-  return "";
-}
-
 }  // namespace
 
 SuiteProgress::SuiteProgress(bool quiet)
@@ -65,7 +53,7 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::st
     figures += fmt::format(", {}{}{}", label, by, metric.number(f1));
   }
   tell(fmt::format("[run {}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total,
-                   scenario, own.seed, outcome_text(own), figures, own.wall_s));
+                   scenario, own.seed, suite::word_of(own.outcome), figures, own.wall_s));
   shown_ = {};
 }
 

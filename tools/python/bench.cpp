@@ -148,18 +148,6 @@ py::list list_of(const std::vector<bench::JudgedCriterion>& criteria) {
   return list;
 }
 
-const char* word_of(suite::Outcome outcome) {
-  switch (outcome) {
-    case suite::Outcome::passed:
-      return "passed";
-    case suite::Outcome::failed:
-      return "failed";
-    case suite::Outcome::error:
-      return "error";
-  }
-  return "error";
-}
-
 /// Adds a row for each run of a suite. \param folder of the detector's results.
 void add_runs(const suite::SuiteResult& suite, const fs::path& folder, py::list& rows) {
   for (const suite::ScenarioResult& scenario : suite.scenarios) {
@@ -167,7 +155,7 @@ void add_runs(const suite::SuiteResult& suite, const fs::path& folder, py::list&
       rows.append(
           py::dict("detector"_a = suite.detector, "scenario"_a = scenario.name, "seed"_a = run.seed,
                    "family"_a = scenario.drawn ? py::cast(scenario.drawn->family) : py::none(),
-                   "outcome"_a = word_of(run.outcome), "error"_a = run.error,
+                   "outcome"_a = suite::word_of(run.outcome), "error"_a = run.error,
                    "metrics"_a = dict_of(run.metrics), "criteria"_a = list_of(run.criteria),
                    "folder"_a = run.folder.empty() ? py::none() : py::cast(folder / run.folder),
                    "command"_a = run.command));
@@ -223,7 +211,7 @@ py::dict dict_of(const app::SuiteMade& made, PythonCaller& caller) {
   std::string table = suite::suite_table(made.result, false);
   if (!made.others.empty()) table += '\n' + suite::beside_table(made.result, made.others);
   caller.warn(suite::warnings(made.result));
-  return py::dict("folder"_a = made.folder, "outcome"_a = word_of(outcome), "runs"_a = runs,
+  return py::dict("folder"_a = made.folder, "outcome"_a = suite::word_of(outcome), "runs"_a = runs,
                   "means"_a = means, "table"_a = table, "verdict"_a = made.verdict.line,
                   "comparison"_a = made.comparison
                                        ? py::object(dict_of(*made.comparison, made.verdict))

@@ -34,7 +34,6 @@ using suite::ScenarioResult;
 using suite::SuiteInFolder;
 using suite::SuiteResult;
 
-constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
 
 /// So many scenarios are shown as a whole, with curves and events; the others with the figures of
@@ -269,7 +268,7 @@ Json before_json(const fs::path& folder, const Events& events, Json& events_now)
 Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
               const ScenarioResult& scenario, const RunResult& run, bool whole) {
   Json json = {{"seed", run.seed},
-               {"outcome", kOutcomes[static_cast<std::size_t>(run.outcome)]},
+               {"outcome", suite::word_of(run.outcome)},
                {"error", run.error},
                {"wall_s", json_of(run.wall_s)},
                {"command", run.command},
@@ -342,7 +341,7 @@ Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                {"file", scenario.file.generic_string()},
                {"groups", scenario.groups},
                {"point", Json::array()},
-               {"outcome", kOutcomes[static_cast<std::size_t>(suite::outcome_of(scenario))]},
+               {"outcome", suite::word_of(suite::outcome_of(scenario))},
                {"figures", figures_of(scenario, differences, whole)},
                {"is_whole", whole},
                {"runs", Json::array()}};

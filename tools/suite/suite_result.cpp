@@ -7,7 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
 
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
@@ -20,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 /// Version of the file format.
 constexpr int kFormat = 1;
-constexpr std::array<std::string_view, 3> kOutcomes{"passed", "failed", "error"};
+constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 
 // ---- Writing
 
@@ -47,7 +46,7 @@ Json to_json(const RunResult& run) {
     warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
   }
   return {{"seed", run.seed},
-          {"outcome", kOutcomes.at(static_cast<std::size_t>(run.outcome))},
+          {"outcome", word_of(run.outcome)},
           {"command", run.command},
           {"error", run.error},
           {"folder", run.folder.generic_string()},
@@ -194,6 +193,10 @@ SuiteResult suite_of(const Node& node) {
 }
 
 }  // namespace
+
+const char* word_of(Outcome outcome) {
+  return kOutcomes.at(static_cast<std::size_t>(outcome));
+}
 
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   Json scenarios = Json::array();

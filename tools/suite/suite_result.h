@@ -26,6 +26,9 @@ enum class Outcome {
   error,   ///< no figures: a broken scenario, scene, file or GL
 };
 
+/// The word for the user and in files: passed, failed or error.
+const char* word_of(Outcome outcome);
+
 struct RunResult {
   std::uint64_t seed = 0;
   Outcome outcome = Outcome::error;
