@@ -25,8 +25,8 @@ constexpr const char* kHelp = R"(Examples:
   lcs compare out/before out/after --metric 'rebel\.f1' --all
   lcs compare out/before out/after --markdown out/summary        for a pull request
 
-The verdict is on the means over all scenarios and over each group. A mean has changed when its change is
-beyond the least that matters by more than chance explains, given how many means are judged
+The verdict is on the means over all scenarios and over each group. A mean has changed if its change exceeds
+the least change that matters by more than chance explains, given the number of means
 (tools/suite/README.md). Each is printed with the 95 % interval of its change. Single scenarios are listed
 below; one with a single seed has no verdict. Times are never judged.
 
@@ -58,7 +58,7 @@ Command add_compare_command(CLI::App& app) {
   const auto owned = std::make_shared<CompareOptions>();
   CompareOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
-      "compare", "Tell what got better and what got worse between two suites, beyond noise");
+      "compare", "List the figures that got better or worse between two suites, beyond noise");
   command.add_option("BEFORE", options.request.before, "A suite.json, or the folder of a suite")
       ->required()
       ->type_name("");
@@ -68,10 +68,10 @@ Command add_compare_command(CLI::App& app) {
                   "Only figures with this regular expression in their name")
       ->type_name("REGEX");
   command.add_flag("--all", options.all,
-                   "Also what did not change, and figures of which neither way is better");
+                   "Also unchanged figures, and figures without a better direction");
   command.add_flag_callback(
       "--fail-on-regression", [] {},
-      "Exit with 1 where something regressed: this command always does, lcs suite only where it is "
+      "Exit with 1 after a regression: this command always does, lcs suite only if it is "
       "asked");
   command
       .add_option("--markdown", options.request.markdown,

@@ -17,24 +17,25 @@ namespace lcs::tools {
 /// Adds --detector, whose help lists all detectors, --detector-command and --detector-timeout.
 inline void add_detector_option(CLI::App& command, app::DetectorChoice& options,
                                 const std::string& more = "") {
-  std::string about = "What watches; lcs if not given:";
+  std::string about = "The detector; lcs if not given:";
   for (const comparators::DetectorKind& each : comparators::detectors()) {
     about += fmt::format("\n{:<10} {}", each.name, each.purpose);
   }
   command
       .add_option("--detector", options.name,
-                  about + more + "\nWith a detector of yours: what it is called in the results")
+                  about + more + "\nFor a detector of yours: its name in the results")
       ->type_name("NAME");
   CLI::Option* own =
       command
-          .add_option("--detector-command", options.command,
-                      "A program of yours that watches, as 'python3 mine.py': it is handed each "
-                      "frame on its standard input and answers with a line "
-                      "(tools/comparators/PROTOCOL.md)")
+          .add_option(
+              "--detector-command", options.command,
+              "A detector of yours, as 'python3 mine.py': the program reads each frame from "
+              "its standard input and answers with a line "
+              "(tools/comparators/PROTOCOL.md)")
           ->type_name("COMMAND");
   add_quantity_option(command, "--detector-timeout", scenario::kDuration, options.timeout_s,
-                      fmt::format("That it may take to start, to answer and to end; {} s if not "
-                                  "given",
+                      fmt::format("Limit of the time to start, to answer a frame, and to end; {} s "
+                                  "if not given",
                                   options.timeout_s))
       ->type_name("TIME")
       ->needs(own);
@@ -42,16 +43,15 @@ inline void add_detector_option(CLI::App& command, app::DetectorChoice& options,
 
 /// Further help text of --detector, for commands that accept filter presets.
 inline constexpr const char* kPresetDetector =
-    "\nlcs:lab    the filter with the paper's preset, or another, and nothing that scenarios say "
-    "of it";
+    "\nlcs:lab    the filter with the paper's preset, or another, without the scenario's filter "
+    "settings";
 
 /// Adds --beside for a single run: each further detector has its own output folder.
 inline void add_beside_option(CLI::App& command, std::vector<std::string>& beside) {
   command
-      .add_option(
-          "--beside", beside,
-          "Let this detector watch the same frames too, and write its figures and layers to "
-          "the folder; may be repeated")
+      .add_option("--beside", beside,
+                  "Run this detector on the same frames too, and write its figures and layers to "
+                  "the folder; may be repeated")
       ->type_name("NAME=DIR")
       ->group(kOutputs)
       ->allow_extra_args(false);

@@ -20,16 +20,16 @@ constexpr const char* kHelp = R"(Examples:
   lcs kinematics --config my_rover.yaml --out out/mine
   lcs kinematics --set "camera.fovy=90 deg" --set "ego.speed=2 m/s" --set imu.preset=tumvi
   lcs kinematics --quick                            a quarter of the time, noisier figures
-  lcs kinematics --tolerance 0.5                    is every part of it within half a pixel?
+  lcs kinematics --tolerance 0.5                    does every part hold within half a pixel?
 
-The file is a scenario: of it count camera (size, fovy, rate, mount), speed of the rover, IMU,
+The file is a scenario. The command uses its camera (size, fovy, rate, mount), the rover's speed, IMU,
 odometry, scene, and the filter's field.* parameters. Three models of the rotation (the paper's as
-printed, first order, homography), each with V by a reference depth, by what the landmark has learnt,
-and by the true depth, are held against the truth: on points of pure geometry, on rendered corners, and
-along drives. tools/kinematics/README.md says how each figure is taken.
+printed, first order, homography), each with V by a reference depth, by the landmark's own motion, and by
+the true depth, are compared with the truth: on points of pure geometry, on rendered corners, and along
+drives. tools/kinematics/README.md describes each figure.
 
 --quick takes fewer frames and seeds: 15 frames a drive instead of 40, 5 and 25 seeds of noise instead
-of 20 and 300. What has no noise in it is the same.
+of 20 and 300. Figures without noise are the same.
 
 Files written to the folder, all or none:
   run.json           how it was made: command, program, versions, date
@@ -71,9 +71,8 @@ Command add_kinematics_command(CLI::App& app) {
   add_set_option(command, options.request.sets,
                  "Set a value of the scenario, as \"camera.fovy=90 deg\"");
   add_out_option(command, options.request.out, "out/kinematics");
-  add_quantity_option(
-      command, "--tolerance", kTolerance, options.request.tolerance_px,
-      "Error of a prediction that is small enough, for the answer; 1 px if not given")
+  add_quantity_option(command, "--tolerance", kTolerance, options.request.tolerance_px,
+                      "Largest acceptable error of a prediction; 1 px if not given")
       ->type_name("PX");
   command.add_flag("--quick", options.request.quick,
                    "Fewer frames and seeds: a quarter of the time");

@@ -27,13 +27,13 @@ using namespace lcs::tools;
 
 constexpr const char* kHelp =
     R"(A rover drives through a simulated world, the Line-Circle-Square filter watches
-through its camera and IMU, and the simulator's truth scores what the filter says.
+through its camera and IMU, and the simulator's truth scores the filter.
 
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
-  lcs preview SCENARIO                look at one before it is run: its plan, what is wrong
+  lcs preview SCENARIO                check one before a run: its plan, its problems
   lcs suite                           run all short scenarios, with several seeds each
   lcs merge part1 part2               join the parts of a suite that several machines made
-  lcs compare out/before out/suite    what two suites differ in, beyond noise
+  lcs compare out/before out/suite    the differences of two suites, beyond noise
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth

@@ -21,9 +21,9 @@ constexpr const char* kHelp = R"(Examples:
   lcs merge part1 part2 --out out/train
 
 The merged suite has the files of a suite that was made in one go: figures, report, JUnit, tables. The parts
-stay as they are. On one file system their runs are linked, not copied.
+do not change. On one file system their runs are linked, not copied.
 
-Exit codes: as of lcs suite. 2 also where a part is missing or is of another suite.
+Exit codes: those of lcs suite. 2 also if a part is missing or belongs to another suite.
 )";
 
 ExitCode merge(const MergeOptions& options) {

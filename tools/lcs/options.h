@@ -114,7 +114,7 @@ inline void add_output_file_option(CLI::App& command, const std::string& name, s
   if (command.get_option_no_throw("--force") != nullptr) return;
   command
       .add_flag("--force", force,
-                "Replace a file that lcs has not written, or that was changed since")
+                "Replace a file of the same name that lcs did not write, or that was edited since")
       ->group(kOutputs);
 }
 
@@ -127,7 +127,7 @@ inline bench::Overwrite overwrite(bool force) {
 inline void add_result_options(CLI::App& command, bool& no_video, bool& events) {
   command.add_flag("--no-video", no_video, "Write no video.mp4");
   command.add_flag("--events", events,
-                   "Write events.json: where rebels were missed or false, why, and pictures of it");
+                   "Write events.json: missed and false rebels, with reasons and pictures");
 }
 
 /// Adds `--keep`.
@@ -141,7 +141,7 @@ inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
 }
 
 inline void add_quiet_option(CLI::App& command, bool& quiet) {
-  command.add_flag("--quiet", quiet, "Print nothing but what went wrong");
+  command.add_flag("--quiet", quiet, "Print only errors and warnings");
 }
 
 }  // namespace lcs::tools

@@ -41,17 +41,17 @@ constexpr const char* kHelp = R"(Examples:
   lcs preview my_scenario.yaml --mjcf world.xml         for MuJoCo's viewer: simulate world.xml
 
 The page has the plan from above with the ways of the rover and the actors and their times; the first, the
-middle and the last picture with the corners in them; and what is wrong: who starts inside of something, runs
-into something, is never seen or never moves, a camera inside of something, too few corners. The physics are
-done, the filter is not asked: that takes a second or two, three for a drive of a minute. That an actor is never
-seen, and corners, go by 13 pictures, evenly spread, of four million pixels at most.
+middle and the last picture with their corners; and the problems: actors that start inside of something, run
+into something, are never visible or never move, a camera inside of something, too few corners. The physics
+run, the filter does not: a second or two, three for a drive of a minute. Visibility and corners are judged
+by 13 pictures, evenly spread, of four million pixels at most.
 
---mjcf writes the world with all at their start: MJCF, in which surfaces that this project draws are of one
-colour and bumps of the ground are level; or, to a file called .mjb, MuJoCo's binary, which has them.
+--mjcf writes the world at its start. A file called .mjb, MuJoCo's binary, is complete. In MJCF, surfaces
+that this project draws have one colour, and the ground has no bumps.
 
 Exit codes:
   0  nothing is wrong
-  1  something is: told on stderr and on the page
+  1  there are problems: they are on stderr and on the page
   2  error: nothing was written
   130  interrupted (Ctrl-C): likewise
 )";
@@ -112,7 +112,7 @@ Command add_preview_command(CLI::App& app) {
   const auto owned = std::make_shared<PreviewOptions>();
   PreviewOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
-      "preview", "Show a scenario before it is run: its plan, three pictures, what is wrong");
+      "preview", "Check a scenario before a run: its plan, three pictures, its problems");
   command
       .add_option("SCENARIO", options.scenario,
                   "The scenario: a YAML file, or the name of one of the project, as night")
@@ -124,7 +124,7 @@ Command add_preview_command(CLI::App& app) {
                          "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb");
   add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  command.add_flag("--quiet", options.quiet, "Print only what is wrong");
+  command.add_flag("--quiet", options.quiet, "Print only the problems");
   command.footer(kHelp);
   return {command, [owned] { return preview(*owned); }};
 }

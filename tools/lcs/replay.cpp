@@ -45,11 +45,11 @@ constexpr const char* kHelp =
                                                   a scenario of it, for lcs run and lcs suite
 
 This makes a scenario whose frames are recorded, and runs it: each option up to --split is a key of its
-`recording` (scenarios/README.md, tools/replay/README.md). The layout is told from the folder. What is
-missing, broken, of another size, out of order or twice there is left out or put in order, counted and
-told; the time of a picture that is left out passes.
+`recording` (scenarios/README.md, tools/replay/README.md). Data that are broken, of another size or
+present twice are left out, data out of order are sorted, and all of it is counted and reported. Time
+passes over a picture that is left out.
 
-Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json. A sequence of
+Files are those of `lcs run`. Without a truth, figures that need one are null in metrics.json. A sequence of
 lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its run.
 )";
 
@@ -60,14 +60,14 @@ struct KeyOption {
   const char* about;
 };
 constexpr KeyOption kKeys[] = {
-    {"camera", "NAME", "Which camera, where the layout has several, as cam1 (EuRoC)"},
+    {"camera", "NAME", "Name of the camera, if the layout has several, as cam1 (EuRoC)"},
     {"topics.image", "TOPIC", "Of a ROS bag: its pictures; without it the topics are listed"},
     {"topics.camera_info", "TOPIC", "Of a ROS bag: the calibration, if not beside the pictures"},
     {"topics.imu", "TOPIC", "Of a ROS bag: an IMU"},
     {"topics.poses", "TOPIC", "Of a ROS bag: poses, in place of the IMU"},
     {"topics.odometry", "TOPIC", "Of a ROS bag: velocities beside the IMU"},
     {"topics.world", "FRAME", "Of a ROS bag: the frame of poses that come from tf"},
-    {"fps", "HZ", "Pictures a second, where the layout does not say"},
+    {"fps", "HZ", "Pictures a second, if the recording has no times"},
     {"times", "FILE", "When the pictures were taken: a time a line, or a table with their names"},
     {"time_unit", "UNIT", "Of times in tables and names of pictures: s, ms, us or ns"},
     {"every", "N", "Take every N-th picture only"},
@@ -77,9 +77,9 @@ constexpr KeyOption kKeys[] = {
      "Readings of an IMU, a table with a header as EuRoC's, ROS's or a phone's; where pictures "
      "have "
      "no clock the first one belongs to the first picture, --speed is the speed then"},
-    {"odometry", "FILE", "Velocities by the wheels beside them, CSV as EuRoC's"},
+    {"odometry", "FILE", "Velocities by the wheels, in addition to --imu, CSV as EuRoC's"},
     {"speed", "M/S", "Of the camera, ahead, in m/s; 0 where it stands"},
-    {"at_rest", "S", "It stands for as long at the start, in s"},
+    {"at_rest", "S", "Seconds at the start in which the camera stands"},
     {"calibration", "FILE",
      "Of the camera: YAML of Kalibr, OpenCV, ROS (camera_info), ORB-SLAM3, VINS or OpenVINS"},
     {"imu_calibration", "FILE", "Noise of the IMU, as Kalibr's imu.yaml has it"},
@@ -91,12 +91,12 @@ constexpr KeyOption kKeys[] = {
     {"mount", "R,P,Y",
      "Where the camera looks: roll, pitch (down), yaw (left) from straight ahead, in degrees"},
     {"bayer", "PATTERN", "Raw pictures: rggb, bggr, grbg or gbrg, from the top left pixel on"},
-    {"bits", "N", "In use where pictures have 16; if not given, as their values show"},
+    {"bits", "N", "Used bits of 16-bit pictures; if not given, judged by their values"},
     {"mask", "FILE", "A picture of the camera's size, white where the vehicle itself is seen"},
     {"labels", "FILE",
      "Boxes of all that moves: MOTChallenge's gt.txt, COCO's JSON, KITTI tracking's labels"},
     {"labels_video", "NAME", "The video of these labels, where their file has several"},
-    {"split", "NAME", "What its figures are for: train, validate or test"},
+    {"split", "NAME", "Split that it belongs to: train, validate or test"},
 };
 
 ExitCode replay(const ReplayOptions& options) {
@@ -120,7 +120,7 @@ Command add_replay_command(CLI::App& app) {
                   "The recording: a folder, a video, or a ROS bag")
       ->required()
       ->type_name("");
-  std::string about = "Layout of the recording; if not given, told from what is there:";
+  std::string about = "Layout of the recording; if not given, recognized by its files:";
   for (const replay::Layout& layout : replay::layouts()) {
     about += fmt::format("\n{:<14} {}", layout.name, layout.purpose);
   }

@@ -37,7 +37,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
   lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
   lcs run scenarios/crossing.yaml --set filter.hypotheses.prior=0.05 --recorded out/crossing --no-video
-                                     the filter anew on the frames of an earlier run, in a moment
+                                     the changed filter on the frames of an earlier run, in a second
 
 Files written to the folder, all or none:
   metrics.json   every figure, flat; null where it is not defined (tools/scoring/SCORING.md)
@@ -45,17 +45,17 @@ Files written to the folder, all or none:
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
   detector.json  the detector's name
-  camera.json    the camera, as detectors are told of it
+  camera.json    the camera, as detectors get it
   run.json       how it was made: command, program, settings, seed, versions, date
-  warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
+  warnings.json  problems: the rover or an actor ran into something, fell, tipped over
   video.mp4      the paper's four panels: corners, edges, circles, squares
-  events.json    with --events or --report: the worst misses and false alarms, with the rules that the corners
-                 met their end by, and JPEG pictures
-  report.html    with --report: all of it to look at in a browser, the video beside the plots
-  pictures.mjpeg with --events: what the camera saw, compressed, for --recorded
+  events.json    with --events or --report: the worst misses and false alarms, with the rules that decided,
+                 and JPEG pictures
+  report.html    with --report: a page for the browser, with the video beside the plots
+  pictures.mjpeg with --events: the pictures of the camera, compressed, for --recorded
 
-What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr,
-and what was wrong in the world, with its first time and place.
+Problems of the data (readings of the sensors, times, corners) are counted and printed on stderr, and so are
+problems of the world, each with its first time and place.
 
 Exit codes:
   0  fine
@@ -153,7 +153,7 @@ Command add_run_command(CLI::App& app) {
           ->type_name("DIR");
   command
       .add_option("--detections", options.request.detector.detections,
-                  "With --recorded: what a detector of yours has said of these frames, a CSV file "
+                  "With --recorded: the answers of a detector of yours to these frames, a CSV file "
                   "(tools/recording/DETECTIONS.md)")
       ->type_name("FILE")
       ->needs(recorded)

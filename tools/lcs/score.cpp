@@ -22,9 +22,9 @@ struct ScoreOptions {
 };
 
 constexpr const char* kHelp = R"(Examples:
-  lcs score out/crossing                                    a run's figures again
-  lcs score out/suite                                       those of all runs of a suite
-  lcs score out/crossing --detections mine.csv              another detector's on the same frames
+  lcs score out/crossing                                    the figures of a run
+  lcs score out/suite                                       the figures of all runs of a suite
+  lcs score out/crossing --detections mine.csv              another detector on the same frames
   lcs score out/crossing --detections mine.csv --out mine.json
   lcs score out/crossing --write-detections lcs.csv         what the run's detector said, as CSV
 
@@ -36,13 +36,13 @@ A row of detections is one of these; corners that no row names are normal
   FRAME,circle,X,Y,RADIUS                a group of rebels, by which false objects are counted;
                                          without values: there is none in this frame
 
-Of the run's folder, layers.jsonl (for its corners), truth.jsonl and, for the times, frames.csv are
-read; none of it is changed. Figures are those of tools/scoring/SCORING.md. The times of the run's own
-detector are those of the run; someone else's has none, nor a dimension.
+The command reads layers.jsonl (corners), truth.jsonl and frames.csv (times) of the run's folder, and
+changes nothing there. tools/scoring/SCORING.md defines the figures. Figures of time and size exist for
+the run's own detector only.
 
 Exit codes:
   0  fine
-  2  error: file and line, what is wrong, what to do; nothing was written
+  2  error, with file, line, problem and remedy; nothing was written
 )";
 
 ExitCode score(const ScoreOptions& options) {
@@ -75,7 +75,7 @@ Command add_score_command(CLI::App& app) {
       ->type_name("");
   command
       .add_option("--detections", options.request.detections,
-                  "Score what this CSV file says instead of the run's own detector")
+                  "Score the answers in this CSV file instead of the run's own detector")
       ->type_name("FILE");
   add_output_file_option(command, "--out", options.request.out, options.force,
                          "Write the figures to this file, as metrics.json has them");

@@ -33,23 +33,23 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --seeds 1 --worst-first               quicker, and where to look first
   lcs suite --filter crossing --set filter.hypotheses.prior=0.05 --out out/r60
   lcs suite --recorded out/suite --out out/mine --baseline out/suite
-                                                  the filter anew on the frames of an earlier suite
-  lcs suite --beside klt --beside lcs:lab         F1 beside what it is measured against, and by the
-                                                  filter with the paper's preset
+                                                  the changed filter on the frames of an earlier suite
+  lcs suite --beside klt --beside lcs:lab         F1 of further detectors, and of the filter with the
+                                                  paper's preset
   lcs suite --detector mine --detector-command 'python3 mine.py' --beside lcs --beside klt
                                                   a detector of yours beside the filter
   lcs suite --recorded out/suite --detections csv --out out/mine
-                                                  what it has written of an earlier suite's frames
+                                                  its CSV files about an earlier suite's frames
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios, of any group
-  lcs suite --group all --list                    what there is
+  lcs suite --group all --list                    the list of all scenarios
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
   lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
-                                                  how far the filter is from its yardsticks, by family
+                                                  the filter against other detectors, by family
   lcs suite --worlds train --count 1000 --keep figures    a thousandth of the disk
   lcs suite --worlds train --count 1000 --shard 2/16 --out part2
                                                   a part, on one of 16 machines; lcs merge joins them
-  lcs compare out/before out/suite                what two suites differ in, beyond noise
+  lcs compare out/before out/suite                the differences of two suites, beyond noise
 
 Worlds are kept in out/worlds/ and drawn anew only where the generator changed. A kept world that was edited is
 refused. Those of the split `test` are for stating figures: nothing is chosen by them (tools/worlds/README.md).
@@ -57,16 +57,16 @@ refused. Those of the split `test` are for stating figures: nothing is chosen by
 Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
 crashes, or a scenario that is broken, is an error, and the others still run.
 
-A suite that was interrupted or killed goes on by the same command: finished runs are kept in DIR.unfinished/.
+The same command continues a suite that was interrupted or killed: finished runs are kept in DIR.unfinished/.
 
 Files written to the folder, all or none:
   run.json      how it was made: command, program, settings, versions, date
   suite.json    every figure and criterion of every run
-  report.html   all of it to look at: figures against the baseline, plots, and for each miss and
-                false alarm the reasons and a strip of pictures; open it in a browser
+  report.html   a page for the browser: figures against the baseline, plots, and for each miss and
+                false alarm the reasons and a strip of pictures
   worlds.html, worlds/   of worlds: three pictures and the plan of each, with its figures
   junit.xml     a test case a criterion, for continuous integration
-  runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
+  runs/NAME/seed-N/   the files of `lcs run --events`, without a video
   beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, without events and
                       pictures, for lcs compare
   standing.md   with --beside: a row a detector, with its means, in Markdown
@@ -143,7 +143,7 @@ Command add_suite_command(CLI::App& app) {
           ->type_name("DIR");
   command
       .add_option("--detections", options.request.detector.detections,
-                  "With --recorded: what a detector of yours has said, a folder of CSV files "
+                  "With --recorded: the answers of a detector of yours, a folder of CSV files "
                   "(tools/recording/DETECTIONS.md), SCENARIO/seed-N.csv for each run")
       ->type_name("DIR")
       ->needs(recorded)
@@ -173,7 +173,7 @@ Command add_suite_command(CLI::App& app) {
   add_suite_end_options(command, options.request.place, options.end);
   command.add_flag("--anew", options.request.anew,
                    "Drop the runs of an unfinished suite in the same place, and begin again");
-  command.add_flag("--list", options.list, "Only list what would be run");
+  command.add_flag("--list", options.list, "Only list the runs");
   command.footer(kHelp);
   return {command, [owned] { return suite(*owned); }};
 }

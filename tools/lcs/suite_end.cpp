@@ -61,7 +61,7 @@ void add_suite_end_options(CLI::App& command, app::SuitePlace& place, SuiteEndOp
           ->type_name("FILE");
   command
       .add_flag("--fail-on-regression", options.fail_on_regression,
-                "Exit with 1 where something regressed against the baseline, as lcs compare does")
+                "Exit with 1 after a regression against the baseline, as lcs compare does")
       ->needs(baseline);
   command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
   add_quiet_option(command, options.quiet);

@@ -21,22 +21,22 @@ constexpr const char* kHelp = R"(Examples:
   lcs tune out/train --validate out/validate              all learnt numbers
   lcs suite my_recordings --out out/recorded; lcs tune out/train out/recorded
   lcs tune out/train --keys hypotheses.prior,hypotheses.newcomer --evaluations 60
-  lcs tune out/train --evaluations 1                      what the present ones are worth
+  lcs tune out/train --evaluations 1                      the objective of the present numbers
   lcs tune out/train --evaluations 1 --set hypotheses.prior=0.05
 
-The frames of the suite's runs are asked of the filter again and again, each time with other numbers,
-on all cores. What counts is the mean F1 of rebels over the worlds in which something moves, less a
-tenth of the mean number of false objects in a frame, of which no world counts for more than one, and
-less a hundredth of the false corners in a frame of recordings in which nothing moves. NLopt's BOBYQA
-looks for the most of it, between a quarter of the present values and four times these. Runs of the
-split test are refused: nothing is chosen by them. A run knows the world that it is of, under any name,
-with any seed, in another scenario and as a sequence of lcs generate.
+The filter runs on the frames of the suites again and again, each time with other numbers, on all cores.
+The objective is the mean F1 of rebels over the worlds in which something moves, less a tenth of the mean
+number of false objects in a frame (at most one a world), and less a hundredth of the false corners in a
+frame of recordings in which nothing moves. NLopt's BOBYQA maximizes it between a quarter of the present
+values and four times these. Runs of the split test are refused: nothing is chosen by them. A run
+records its world, so it is recognized under any name, with any seed, in another scenario and as a
+sequence of lcs generate.
 
-Each evaluation is kept at once, also if the program is killed. A search that was interrupted, or is to
-go on with more evaluations, goes on where it was by the same command; the same command gives the same
-numbers. The journal states what its figures depend on: the program, the files of the runs, the suites'
-names, the settings, the seed, each number with its start and bounds. It is refused where any of these
-is another now, and where a row was changed; remove it then, or name another folder.
+Each evaluation is kept at once, also if the program is killed. The same command continues an interrupted
+search, or one with more evaluations, and gives the same numbers. The journal records everything that its
+figures depend on: the program, the files of the runs, the suites' names, the settings, the seed, each
+number with its start and bounds. If any of these differs, or a row was edited, the command refuses the
+journal; remove it then, or name another folder.
 
 Files in the folder:
   evaluations.csv    the journal: every set that was tried, with its figures
@@ -80,10 +80,10 @@ Command add_tune_command(CLI::App& app) {
   add_set_option(command, options.request.sets,
                  "Set a parameter of the filter before, as hypotheses.prior=0.05");
   add_integer_option(command, "--evaluations", options.request.evaluations,
-                     "Sets of numbers that are tried; 300 if not given", 1, 1000000)
+                     "Sets of numbers to try; 300 if not given", 1, 1000000)
       ->type_name("N");
   add_seed_option(command, options.request.seed,
-                  "1 starts from the present numbers; any other from a point about them");
+                  "1 starts from the present numbers, any other from a random point near them");
   add_out_option(command, options.request.out, "out/tune");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);

@@ -20,19 +20,19 @@ struct WorldOptions {
 };
 
 constexpr const char* kHelp = R"(Examples:
-  lcs world room --seed 7 --out my/room          my/room/room_7.yaml, and what it is made of
+  lcs world room --seed 7 --out my/room          my/room/room_7.yaml and its scene
   lcs run my/room/room_7.yaml                    as any other scenario
-  lcs world street --pictures ~/photos           with surfaces out of a folder of pictures
+  lcs world street --pictures ~/photos           surfaces from a folder of pictures
   lcs suite --worlds test --count 60             many of them at once
 
 The same seed gives the same bytes. Seeds 1 to 999999 are of the split `train`, those of the next million
 `validate`, and of the one after that `test`, by which nothing is chosen (tools/worlds/README.md).
 
 Files written to the folder, all or none:
-  FAMILY_SEED.yaml   the scenario, with what it has in its first lines
+  FAMILY_SEED.yaml   the scenario, with a summary in its first lines
   scene.xml          the scene in MJCF, which MuJoCo's own viewer opens too
   textures/, meshes/ PNG and OBJ files
-  plan.png           the world from above: what stands, the rover's way (blue), the movers' (magenta)
+  plan.png           the world from above: fixed objects, the way of the rover (blue), of the movers (magenta)
   sheet.png          with --sheet: first, middle and last picture with the truth's boxes, and the plan
 
 Exit codes:
@@ -64,7 +64,7 @@ Command add_world_command(CLI::App& app) {
                   fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
       ->type_name("")
       ->required();
-  add_seed_option(command, options.request.seed, "What it is drawn from; 1 if not given");
+  add_seed_option(command, options.request.seed, "Seed of the world; 1 if not given");
   add_out_option(command, options.request.out, "out/worlds/FAMILY_SEED");
   command
       .add_option("--pictures", options.request.pictures,

@@ -25,6 +25,7 @@
 #include "tools/input/inputs_read.h"
 #include "tools/python/guard.h"
 #include "tools/python/scenario.h"
+#include "tools/python/typed.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
@@ -252,13 +253,13 @@ const double kTimeout = app::DetectorChoice{}.timeout_s;
 void bind_suites(py::module_& module) {
   module.def(
       "suite",
-      [](const py::object& paths, const std::string& worlds, int count, const std::string& family,
-         const std::optional<std::string>& group, const std::string& filter,
-         std::optional<int> seeds, int jobs, const std::string& detector,
-         const std::string& command, double timeout, const Texts& beside, const py::object& set,
+      [](const OptionalPaths& paths, const std::string& worlds, int count,
+         const std::string& family, const std::optional<std::string>& group,
+         const std::string& filter, std::optional<int> seeds, int jobs, const std::string& detector,
+         const std::string& command, double timeout, const Texts& beside, const Settings& set,
          const std::string& recorded, const std::string& detections, const std::string& keep,
          const std::string& shard, const std::string& times, const fs::path& out,
-         const std::string& baseline, bool anew, const py::object& progress) {
+         const std::string& baseline, bool anew, const ProgressFunction& progress) {
         app::SuiteRequest request;
         request.paths = paths_of(paths);
         if (!worlds.empty() && !request.paths.empty()) {
@@ -313,7 +314,7 @@ void bind_suites(py::module_& module) {
       "there.");
   module.def(
       "merge",
-      [](const py::object& parts, const fs::path& out, const std::string& baseline) {
+      [](const Paths& parts, const fs::path& out, const std::string& baseline) {
         const app::MergeRequest request{paths_of(parts), {out.string(), baseline}};
         PythonCaller caller;
         const app::SuiteMade made = carry_out([&] { return app::merge(request, caller); });
@@ -384,10 +385,10 @@ void bind_runs(py::module_& module) {
   module.def(
       "run",
       [](const fs::path& scenario, const std::string& out, std::optional<std::uint64_t> seed,
-         const py::object& set, const std::string& frames, const std::string& detector,
+         const Settings& set, const std::string& frames, const std::string& detector,
          const std::string& command, double timeout, const std::string& detections,
          const Texts& beside, const std::string& recorded, const std::string& keep, bool video,
-         bool events, bool report, const py::object& progress) {
+         bool events, bool report, const ProgressFunction& progress) {
         app::RunRequest request;
         request.scenario = scenario.string();
         request.out = out;
@@ -427,11 +428,11 @@ void bind_runs(py::module_& module) {
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
   module.def(
       "replay",
-      [](const fs::path& path, const std::string& out, const py::object& recording,
+      [](const fs::path& path, const std::string& out, const Settings& recording,
          const std::string& ego_motion, const std::string& fast_threshold,
-         const std::string& preset, const py::object& set, const std::string& detector,
+         const std::string& preset, const Settings& set, const std::string& detector,
          const std::string& command, double timeout, const Texts& beside, bool video, bool events,
-         const py::object& progress) {
+         const ProgressFunction& progress) {
         app::ReplayRequest request;
         request.path = path.string();
         for (const std::string& assignment : assignments_of(recording)) {
@@ -464,10 +465,10 @@ void bind_runs(py::module_& module) {
       "contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.");
   module.def(
       "generate",
-      [](const py::object& paths, const std::string& out, const std::string& worlds, int count,
+      [](const OptionalPaths& paths, const std::string& out, const std::string& worlds, int count,
          const std::string& family, bool suite, const Texts& formats, int frames,
-         std::optional<std::uint64_t> seed, int seeds, const py::object& set, int jobs,
-         const std::string& shard, const py::object& progress) {
+         std::optional<std::uint64_t> seed, int seeds, const Settings& set, int jobs,
+         const std::string& shard, const ProgressFunction& progress) {
         app::GenerateRequest request;
         request.paths = paths_of(paths);
         request.worlds = {worlds, count, family};
@@ -508,9 +509,9 @@ void bind_runs(py::module_& module) {
 void bind_studies(py::module_& module) {
   module.def(
       "tune",
-      [](const py::object& suites, const py::object& validate, const Texts& keys,
-         const py::object& set, int evaluations, std::uint64_t seed, const fs::path& out,
-         const py::object& progress) {
+      [](const Paths& suites, const OptionalPaths& validate, const Texts& keys, const Settings& set,
+         int evaluations, std::uint64_t seed, const fs::path& out,
+         const ProgressFunction& progress) {
         const app::TuneRequest request{.suites = paths_of(suites),
                                        .validate = paths_of(validate),
                                        .keys = keys,
@@ -542,8 +543,8 @@ void bind_studies(py::module_& module) {
       "The same call goes on after it was interrupted.");
   module.def(
       "kinematics",
-      [](const std::string& config, const py::object& set, double tolerance, bool quick,
-         const fs::path& out, const py::object& progress) {
+      [](const std::string& config, const Settings& set, double tolerance, bool quick,
+         const fs::path& out, const ProgressFunction& progress) {
         const app::KinematicsRequest request{.config = config,
                                              .sets = assignments_of(set),
                                              .out = out.string(),

@@ -79,19 +79,18 @@ void bind_detector(py::module_& module) {
            }),
            py::arg("scenario"), py::arg("name") = "", py::kw_only(), py::arg("command") = "",
            py::arg("timeout") = app::DetectorChoice{}.timeout_s,
-           "name: of the detector; lcs if not given, with command the name of the program in "
-           "results.\n"
-           "command: starts the program, as 'python3 mine.py'. timeout: of each of its answers, "
+           "name: of the detector; lcs if not given. With command: its name in results.\n"
+           "command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, "
            "s.\n"
            "Raises ValueError for an unknown name, Error for a program that does not start.")
       .def(
           "step", [](Detector& detector, const Frame& frame) { return detector.step(frame); },
           py::arg("frame"),
-          "The next frame of a scenario with the same camera; all frames in order.\n"
+          "Processes the next frame of a scenario with the same camera; give all frames in order.\n"
           "Raises Error for a program that ends or answers wrongly.")
       .def(
           "finish", [](Detector& detector) { return detector.finish(); },
-          "After the last frame: ends a program. Returns remarks, a line each.")
+          "Ends the program after the last frame. Returns remarks, a line each.")
       .def_property_readonly("name", [](const Detector& detector) { return detector.name(); });
   module.def(
       "detectors",
@@ -102,7 +101,7 @@ void bind_detector(py::module_& module) {
         }
         return names;
       },
-      "The names of the bench's detectors, with a line on each.");
+      "The names of the bench's detectors, with a line about each.");
 }
 
 }  // namespace lcs::python

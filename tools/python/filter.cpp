@@ -12,6 +12,7 @@
 #include "tools/python/arrays.h"
 #include "tools/python/scenario.h"
 #include "tools/python/type.h"
+#include "tools/python/typed.h"
 #include "tools/recording/box.h"
 
 namespace lcs::python {
@@ -30,7 +31,7 @@ PictureFilter of_scenario(const Scenario& scenario) {
 }
 
 /// A filter with this camera, preset and settings, validated as those of a scenario.
-PictureFilter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
+PictureFilter of_camera(const Camera& camera, const std::string& preset, const Settings& set) {
   scenario::Scenario settings;
   settings.filter_preset = preset;
   settings.filter_preset_source = {"preset", 0};
@@ -42,8 +43,8 @@ PictureFilter of_camera(const Camera& camera, const std::string& preset, const p
   return {bench::intrinsics(camera.pinhole), bench::filter_parameters(settings)};
 }
 
-std::shared_ptr<Result> step(PictureFilter& own, const py::object& corners, const EgoMotion& motion,
-                             const py::object& signatures, const py::object& picture) {
+std::shared_ptr<Result> step(PictureFilter& own, const ArrayLike& corners, const EgoMotion& motion,
+                             const OptionalArray& signatures, const OptionalArray& picture) {
   AnyFilter& filter = own.filter;
   const std::vector<Eigen::Vector2f> corners_px = points_of(corners, "corners");
   GapView* view = nullptr;
@@ -116,10 +117,11 @@ py::list outlines(const Result& result) {
 }
 
 void bind_result(py::module_& module) {
-  class_of<Result, std::shared_ptr<Result>>(module, "Result",
-                                            "What a detector says of a frame. Structured arrays "
-                                            "have the fields of layers.jsonl; places are in\n"
-                                            "pixels, angles in rad, speeds in px/s.")
+  class_of<Result, std::shared_ptr<Result>>(
+      module, "Result",
+      "The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; "
+      "places are in\n"
+      "pixels, angles in rad, speeds in px/s.")
       .def_property_readonly(
           "verdicts", [](const py::object& self) { return codes(self, &FrameResult::verdicts); },
           "N uint8, a Verdict for each corner.")
@@ -132,10 +134,10 @@ void bind_result(py::module_& module) {
           [](const Result& r) {
             return both(r.said.layers.normal_edges, r.said.layers.rebel_edges);
           },
-          "Tracked corners, normal and then rebel ones: id, rebel, x, y, trust, age, speed, angle, "
-          "corner\n"
-          "(its place in the corners, -1 none), circle (its place among the circles of its kind, "
-          "-1 none), ...")
+          "Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, "
+          "corner (index of\n"
+          "its corner, -1: none), circle (index of its circle among those of its kind, -1: none), "
+          "...")
       .def_property_readonly(
           "circles",
           [](const Result& r) {
@@ -149,13 +151,12 @@ void bind_result(py::module_& module) {
       .def_property_readonly("boxes", &boxes,
                              "M x 4 float64: left, top, right, bottom of the squares, pixel edges.")
       .def_property_readonly("outlines", &outlines,
-                             "Of each square K x 2 float64: x, y of the convex hull of its edges, "
-                             "clockwise as the\n"
-                             "picture is seen; none of the presets lab and cars.")
+                             "For each square K x 2 float64: x, y of the convex hull of its edges, "
+                             "clockwise in the picture;\n"
+                             "empty with the presets lab and cars.")
       .def_property_readonly(
           "ignored", [](const Result& r) { return rows(r.said.layers.ignored); },
-          "Regions psi whose corners were not looked at: shape (1 circle, 2 rectangle), x, y, "
-          "size_x,\n"
+          "Regions psi, whose corners were ignored: shape (1: circle, 2: rectangle), x, y, size_x, "
           "size_y.")
       .def_property_readonly(
           "collectors", [](const Result& r) { return rows(r.said.layers.collectors); },
@@ -171,26 +172,28 @@ void bind_filter(py::module_& module) {
       "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
       .def(py::init(&of_scenario), py::arg("scenario"),
            "With the scenario's camera, preset and settings.")
-      .def(
-          py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
-          py::arg("set") = py::none(),
-          "preset: default, lab or cars. set: parameters on top of it, by the keys of\n"
-          "filter/parameters.cpp: {\"circle.gap\": 0.3}; angles in degrees.\n"
-          "Raises Error for what is no preset, key or value, ValueError for a camera that is none.")
+      .def(py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
+           py::arg("set") = py::none(),
+           "preset: default, lab or cars. set: parameters that replace the preset's, by the keys "
+           "of\n"
+           "filter/parameters.cpp: {\"circle.gap\": 0.3}; angles in degrees.\n"
+           "Raises Error for an unknown preset, key or value, ValueError for an impossible camera.")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
            py::kw_only(), py::arg("picture") = py::none(),
-           "The next frame.\n\n"
+           "Processes the next frame.\n"
+           "\n"
            "corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 "
            "uint8;\n"
            "picture: height x width uint8, grey, without distortion. Bodies that approach at "
            "constant speed are\n"
            "found only with pictures, and only by the preset default.\n"
-           "Raises TypeError or ValueError for arrays that are none of these, and is then as if "
-           "the frame had\n"
-           "not been given. Bad numbers never raise: they are left out, see diagnostics.")
+           "Raises TypeError or ValueError for arrays of another type or shape, and then ignores "
+           "the frame.\n"
+           "Numbers that are not finite or out of range never raise: they are left out, see "
+           "diagnostics.")
       .def_property_readonly(
           "diagnostics", [](const PictureFilter& f) { return f.filter.diagnostics().lines(); },
-          "What was wrong with the data so far, a line for each kind.");
+          "Problems of the data so far, a line for each kind.");
 }
 
 }  // namespace lcs::python

@@ -12,6 +12,7 @@
 #include "tools/python/arrays.h"
 #include "tools/python/guard.h"
 #include "tools/python/type.h"
+#include "tools/python/typed.h"
 #include "tools/recording/box.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
@@ -27,8 +28,8 @@ Eigen::Vector3d rate_of(const Eigen::Matrix3d& R_cur_prev, double dt_s) {
   return bench::motion_between({.R = R_cur_prev}, {}, dt_s).w_C_radps;
 }
 
-EgoMotion motion_of(double dt, const py::object& rotation, const py::object& velocity,
-                    const py::object& angular_velocity, const py::object& up,
+EgoMotion motion_of(double dt, const OptionalArray& rotation, const OptionalArray& velocity,
+                    const OptionalArray& angular_velocity, const OptionalArray& up,
                     std::optional<double> height, double unseen_turn, double velocity_sigma) {
   EgoMotion motion;
   motion.dt_s = dt;
@@ -59,7 +60,7 @@ sim::Pose pose_of(const py::object& T, const char* name) {
   return {.R = matrix.topLeftCorner<3, 3>(), .p = matrix.topRightCorner<3, 1>()};
 }
 
-EgoMotion motion_between(const py::object& before, const py::object& now, double dt) {
+EgoMotion motion_between(const ArrayLike& before, const ArrayLike& now, double dt) {
   if (!(dt > 0)) throw py::value_error(fmt::format("dt is {} s; it must be above 0", dt));
   return bench::motion_between(pose_of(before, "T_WC_before"), pose_of(now, "T_WC_now"), dt);
 }
@@ -91,40 +92,40 @@ void bind_motion(py::module_& module) {
           "Time since the last frame, s; 0 in the first one.")
       .def_property_readonly(
           "rotation", [](const EgoMotion& m) { return copy(m.R_cur_prev); },
-          "3 x 3: takes camera coordinates of the last frame to those of this one.")
+          "3 x 3 float64: takes camera coordinates of the last frame to those of this one.")
       .def_property_readonly(
           "velocity", [](const EgoMotion& m) { return copy(m.v_C_mps); },
-          "3, m/s: mean velocity of the camera since the last frame, in its frame of now.")
+          "3 float64, m/s: mean velocity of the camera since the last frame, in its frame of now.")
       .def_property_readonly(
           "displacement", [](const EgoMotion& m) { return copy((m.v_C_mps * m.dt_s).eval()); },
-          "3, m: of the camera since the last frame, in its frame of now.")
+          "3 float64, m: of the camera since the last frame, in its frame of now.")
       .def_property_readonly(
           "angular_velocity", [](const EgoMotion& m) { return copy(m.w_C_radps); },
-          "3, rad/s: mean body rate of the camera.")
+          "3 float64, rad/s: mean body rate of the camera.")
       .def_property_readonly(
           "unseen_turn", [](const EgoMotion& m) { return m.unseen_turn_rad; },
-          "rad: standard deviation of what is wrong with the rotation where the gyro was\n"
-          "not heard; 0 where it was.")
+          "rad: standard deviation of the rotation's error while gyro readings are missing; else "
+          "0.")
       .def_property_readonly(
           "velocity_sigma", [](const EgoMotion& m) { return m.velocity_sigma_mps; },
-          "m/s: standard deviation of what is wrong with the velocity; 0 where nobody tells.")
+          "m/s: standard deviation of the velocity's error; 0 if unknown.")
       .def_property_readonly(
           "up",
-          [](const EgoMotion& m) -> py::object {
-            return m.ground ? py::object(copy(m.ground->up_C)) : py::none();
+          [](const EgoMotion& m) {
+            return m.ground ? OptionalVector(copy(m.ground->up_C)) : OptionalVector(py::none());
           },
-          "3: unit normal of the ground, against gravity, in the camera's frame; None where not "
-          "known.")
+          "3 float64: unit normal of the ground, against gravity, in the camera's frame; None if "
+          "unknown.")
       .def_property_readonly(
           "height",
           [](const EgoMotion& m) {
             return m.ground ? std::optional(m.ground->height_m) : std::nullopt;
           },
-          "m: of the camera above the ground; None where not known.")
-      .def_property_readonly(
-          "usable", &is_usable,
-          "Whether a filter can go on by it from the last frame; it starts anew where not.\n"
-          "False for the first frame.")
+          "m: of the camera above the ground; None if unknown.")
+      .def_property_readonly("usable", &is_usable,
+                             "Whether a filter can predict from the last frame by it. If not, the "
+                             "filter starts anew.\n"
+                             "False for the first frame.")
       .def("__repr__", [](const EgoMotion& m) {
         return fmt::format("<lcs.Motion: {} s, {:.3f} m/s, {:.3f} rad/s{}>", m.dt_s,
                            m.v_C_mps.norm(), m.w_C_radps.norm(),
@@ -216,9 +217,9 @@ py::array odometry(const Frame& frame) {
 void bind_seen(py::module_& module) {
   class_of<Frame, std::shared_ptr<Frame>>(
       module, "Frame",
-      "What the sensors said, and apart from that what is true. Arrays are read-only and stay as "
-      "they are\n"
-      "when the simulation goes on; those of pictures are views.")
+      "The data of the sensors, and apart from them the truth. Arrays are read-only and keep their "
+      "values\n"
+      "when the simulation continues; those of pictures are views.")
       .def_property_readonly(
           "index", [](const Frame& f) { return f.seen.record.index; }, "From 0.")
       .def_property_readonly(
@@ -232,29 +233,32 @@ void bind_seen(py::module_& module) {
       .def_property_readonly(
           "grey",
           [](const py::object& self) { return view(self.cast<const Frame&>().seen.grey, self); },
-          "H x W uint8: what the corners were found in.")
+          "H x W uint8: the grey picture in which the corners were found.")
       .def_property_readonly(
           "noise", [](const Frame& f) { return noise_levels(f.seen.grey); },
-          "Standard deviation of the noise of grey, in grey levels; None where all flat parts are "
+          "Standard deviation of the noise of grey, in grey levels; None if all flat parts are "
           "black or white.")
-      .def_property_readonly("corners", &corners, "N x 2 float64, x and y in pixels: FAST's.")
+      .def_property_readonly("corners", &corners,
+                             "N x 2 float64, x and y in pixels: the corners that FAST found.")
       .def_property_readonly("signatures", &signatures,
-                             "N x 32 uint8: what each corner looks like, ORB's bits.")
+                             "N x 32 uint8: the appearance of each corner, by the bits of ORB.")
       .def_property_readonly(
           "motion", [](const Frame& f) { return f.seen.record.motion; },
-          "Motion since the last frame, as detectors are told: by the IMU and the odometry, with\n"
-          "their errors, unless the scenario says otherwise.")
+          "Motion since the last frame as detectors get it: by IMU and odometry with their errors, "
+          "or as the\n"
+          "scenario's ego_motion says.")
       .def_property_readonly(
           "imu", &imu,
           "Readings since the last frame, fields t (s), gyro (3, rad/s), accel (3, m/s^2), in the\n"
-          "IMU's frame; none of a recorded frame.")
+          "IMU's frame; empty for a recorded frame.")
       .def_property_readonly(
           "odometry", &odometry,
-          "Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up),\n"
-          "yaw_rate (rad/s, by the wheels; nan where they do not tell it).")
+          "Readings since the last frame, fields t (s), velocity (3, m/s, of the rover in its "
+          "frame: x forward,\n"
+          "z up), yaw_rate (rad/s, by the wheels; nan if they do not measure it).")
       .def_property_readonly(
           "truth", [](const Frame& f) { return Truth{f.shared_from_this()}; },
-          "What no detector is to be told.")
+          "The truth of the frame; detectors must not use it.")
       .def("__repr__", [](const Frame& f) {
         return fmt::format("<lcs.Frame {} of {}: {} corners at {} s>", f.seen.record.index,
                            f.run->recording.scenario, f.seen.record.corners_px.size(),
@@ -267,7 +271,7 @@ void bind_seen(py::module_& module) {
 const sim::Observation& observation_of(const Truth& truth) {
   if (truth.frame->observation) return *truth.frame->observation;
   throw py::value_error(
-      "what is true of a recorded frame is not known but for labels; give a scenario with a scene");
+      "the truth of a recorded frame is known only by its labels; give a scenario with a scene");
 }
 
 py::array labels_of(const std::vector<sim::CornerTruth>& corners) {
@@ -277,7 +281,7 @@ py::array labels_of(const std::vector<sim::CornerTruth>& corners) {
   return read_only(labels);
 }
 
-py::array truth_of_points(const Truth& truth, const py::object& points) {
+py::array truth_of_points(const Truth& truth, const ArrayLike& points) {
   const sim::Observation& observation = observation_of(truth);
   const Scenario& scenario = *truth.frame->run->scenario;
   return rows(sim::label_corners(scenario.camera.pinhole, observation.truth,
@@ -307,9 +311,9 @@ py::array object_boxes(const Truth& truth) {
 
 void bind_truth(py::module_& module) {
   class_of<Truth>(module, "Truth",
-                  "What is true of a frame, as tools/scoring/SCORING.md defines it. Of a recorded "
-                  "frame there are\n"
-                  "labels alone, and motion, depth, object_ids and poses raise ValueError.")
+                  "The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame "
+                  "has only labels;\n"
+                  "its motion, depth, object_ids and poses raise ValueError.")
       .def_property_readonly(
           "motion",
           [](const Truth& t) {
@@ -322,17 +326,20 @@ void bind_truth(py::module_& module) {
           "N uint8, a Label for each of the frame's corners.")
       .def_property_readonly(
           "corners", [](const Truth& t) { return rows(t.frame->seen.record.corner_truth); },
-          "A row for each of the frame's corners: label, radial, outline, object (its id; 0 the\n"
-          "fixed setting, -1 none), depth_m, motion_x, motion_y (px until the next frame),\n"
-          "static_motion_x, static_motion_y (px: as if it were fixed).")
+          "A row for each of the frame's corners: label, radial, outline, object (its id; 0: the "
+          "fixed world,\n"
+          "-1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,\n"
+          "static_motion_y (px: the same if the point were fixed).")
       .def("of", &truth_of_points, py::arg("points"),
-           "The same of other points, N x 2 in pixels: for corners of one's own.")
+           "The rows of `corners` for other points, N x 2 in pixels, such as corners of your own "
+           "detector.")
       .def_property_readonly(
           "objects", [](const Truth& t) { return rows(t.frame->seen.record.object_truth); },
-          "A row for each object that is seen: object (its id), left, top, right, bottom (pixel\n"
-          "edges of what is seen of it), visible_px, visible_fraction, moving.")
+          "A row for each visible object: object (its id), left, top, right, bottom (pixel edges "
+          "of its\n"
+          "visible part), visible_px, visible_fraction, moving.")
       .def_property_readonly("boxes", &object_boxes,
-                             "M x 4 float64: left, top, right, bottom of these, pixel edges.")
+                             "M x 4 float64: left, top, right, bottom of `objects`, pixel edges.")
       .def_property_readonly(
           "names",
           [](const Truth& t) {
@@ -341,7 +348,7 @@ void bind_truth(py::module_& module) {
               names[object.id] = object.name;
             return names;
           },
-          "Of all objects, by id.")
+          "The names of all objects by id.")
       .def_property_readonly(
           "depth",
           [](const py::object& self) {
@@ -357,10 +364,10 @@ void bind_truth(py::module_& module) {
           "rover.")
       .def_property_readonly(
           "T_WC", [](const Truth& t) { return copy(matrix_of(observation_of(t).truth.now.T_WC)); },
-          "4 x 4: takes camera coordinates to the world's (z up), m.")
-      .def_property_readonly(
-          "T_WO", &object_poses,
-          "K x 4 x 4: likewise of the object with that id; 0 is the world itself.");
+          "4 x 4 float64: takes camera coordinates to the world's (z up), m.")
+      .def_property_readonly("T_WO", &object_poses,
+                             "K x 4 x 4 float64: takes coordinates of the object with that id to "
+                             "the world's; 0 is the world.");
 }
 
 }  // namespace
@@ -443,7 +450,7 @@ void bind_frame(py::module_& module) {
       .def("__iter__",
            [](const py::object& self) {
              static_cast<void>(self.cast<const Simulation&>());  // checks the class
-             return self;
+             return Frames(self);
            })
       .def("__next__",
            [](Simulation& self) {
@@ -459,9 +466,8 @@ void bind_frame(py::module_& module) {
           [](const Simulation& s) {
             return bench::lines_of(bench::warnings_of(s.run().recording));
           },
-          "What should not be, until now, a line each: the rover or an actor ran into something, "
-          "fell,\n"
-          "tipped over.");
+          "Problems so far, a line each: the rover or an actor ran into something, fell, or tipped "
+          "over.");
 }
 
 }  // namespace lcs::python

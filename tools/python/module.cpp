@@ -29,7 +29,7 @@ void translate(std::exception_ptr thrown) {
     throw;
   } catch (const py::cast_error&) {
     PyErr_SetString(PyExc_TypeError,
-                    "an argument is not of its class; see help() of what is called");
+                    "an argument is not of its class; see help() of the called name");
   } catch (const py::builtin_exception&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -65,16 +65,16 @@ void add_enumeration(py::module_& module, const char* name, const char* about, c
 PYBIND11_MODULE(_core, module) {
   namespace python = lcs::python;
   python::error_type = PyErr_NewExceptionWithDoc(
-      "lcs.Error", "What is wrong, where, and what to do, as the program lcs says it.", nullptr,
-      nullptr);
+      "lcs.Error", "An error as the program lcs prints it: the problem, its place, the remedy.",
+      nullptr, nullptr);
   module.attr("Error") = pybind11::handle(python::error_type);
   pybind11::register_exception_translator(python::translate);
   module.attr("__version__") = LCS_VERSION;
-  python::add_enumeration(module, "Verdict", "What became of a corner.", lcs::bench::kVerdicts);
+  python::add_enumeration(module, "Verdict", "The verdict on a corner.", lcs::bench::kVerdicts);
   python::add_enumeration(
       module, "Reason", "Which of the filter's rules settled a corner's verdict (filter/reason.h).",
       lcs::bench::kReasonWords);
-  python::add_enumeration(module, "Label", "What is true of a corner (tools/scoring/SCORING.md).",
+  python::add_enumeration(module, "Label", "The truth of a corner (tools/scoring/SCORING.md).",
                           lcs::bench::kLabels);
   python::bind_scenario(module);
   python::bind_frame(module);

@@ -12,15 +12,16 @@
 #include "tools/input/reader.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
+#include "tools/python/typed.h"
 #include "tools/replay/playback.h"
 
 namespace lcs::python {
 namespace {
 
 /// Parses a seed by the rules of `--seed`; absent for None.
-std::optional<std::uint64_t> seed_of(const py::object& seed) {
+std::optional<std::uint64_t> seed_of(const OptionalSeed& seed) {
   if (seed.is_none()) return std::nullopt;
-  const input::Value value{input::Value::Kind::scalar, {"seed", 0}, py::str(seed)};
+  const input::Value value{input::Value::Kind::scalar, {"seed", 0}, py::str(py::handle(seed))};
   return input::as_seed(value, "the seed");
 }
 
@@ -40,13 +41,13 @@ std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
   return made;
 }
 
-std::shared_ptr<Scenario> from_file(const std::filesystem::path& file, const py::object& set,
-                                    const py::object& seed) {
+std::shared_ptr<Scenario> from_file(const std::filesystem::path& file, const Settings& set,
+                                    const OptionalSeed& seed) {
   return made_of(scenario::load(file, {.sets = assignments_of(set), .seed = seed_of(seed)}));
 }
 
 std::shared_ptr<Scenario> from_yaml(const std::string& text, const std::filesystem::path& file,
-                                    const py::object& set, const py::object& seed) {
+                                    const Settings& set, const OptionalSeed& seed) {
   return made_of(scenario::load(input::parse_document(text, file), file,
                                 {.sets = assignments_of(set), .seed = seed_of(seed)}));
 }
@@ -133,21 +134,23 @@ void bind_scenario(py::module_& module) {
   bind_camera(module);
   class_of<Scenario, std::shared_ptr<Scenario>>(
       module, "Scenario",
-      "What is simulated, or what was recorded: a YAML file as scenarios/README.md has it.")
+      "A scenario to simulate, or a recording: a YAML file of the form in scenarios/README.md.")
       .def(py::init(&from_file), py::arg("file"), py::kw_only(), py::arg("set") = py::none(),
            py::arg("seed") = py::none(),
-           "Reads and checks all of it.\n\n"
-           "set: values in place of the file's, as lcs run --set takes them: {\"ego.speed\": \"0.7 "
+           "Reads and checks the whole file.\n"
+           "\n"
+           "set: values that replace the file's, as in lcs run --set: {\"ego.speed\": \"0.7 "
            "m/s\"}.\n"
-           "seed: in place of the file's.\n"
-           "Raises Error with file, line, what is wrong and what to do. Warns of settings of the "
-           "filter that\n"
-           "have no effect.")
+           "seed: replaces the file's.\n"
+           "Raises Error with file, line, problem and remedy. Warns of settings of the filter that "
+           "have no\n"
+           "effect.")
       .def_static("from_yaml", &from_yaml, py::arg("text"), py::kw_only(),
                   py::arg("file") = std::filesystem::path("scenario.yaml"),
                   py::arg("set") = py::none(), py::arg("seed") = py::none(),
-                  "The same of text. file: that it might be, which gives the name; paths begin at "
-                  "its folder.")
+                  "A scenario from YAML text. file: a path that gives the name, and the folder "
+                  "from which relative paths\n"
+                  "begin; it need not exist.")
       .def_property_readonly(
           "name", [](const Scenario& s) { return s.full.name; }, "The file's stem.")
       .def_property_readonly("file", [](const Scenario& s) { return s.full.file; })
@@ -155,14 +158,14 @@ void bind_scenario(py::module_& module) {
           "purpose", [](const Scenario& s) { return s.full.purpose; }, "One line.")
       .def_property_readonly(
           "groups", [](const Scenario& s) { return s.full.groups; },
-          "That it belongs to, as \"short\".")
+          "Groups of the scenario, such as \"short\".")
       .def_property_readonly("seed", [](const Scenario& s) { return s.full.seed; })
       .def_property_readonly(
           "frames", [](const Scenario& s) { return s.full.frames; },
-          "How many; of a recording at the most.")
+          "Number of frames; for a recording an upper bound.")
       .def_property_readonly(
           "recorded", [](const Scenario& s) { return s.full.recording.has_value(); },
-          "Whether the frames are those of a recording, not of a simulation.")
+          "Whether the frames come from a recording instead of a simulation.")
       .def_readonly("camera", &Scenario::camera)
       .def("__repr__", [](const Scenario& s) {
         return fmt::format("<lcs.Scenario {}: {} frames, seed {}>", s.full.name, s.full.frames,

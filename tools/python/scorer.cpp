@@ -17,6 +17,7 @@
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/type.h"
+#include "tools/python/typed.h"
 #include "tools/recording/frame_detections.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
@@ -138,8 +139,9 @@ void add_circles(const py::object& circles, bench::FrameDetections& said) {
 }
 
 /// Checks everything except the fit to the picture, which is not known yet.
-Detections detections_of(const py::object& rebels, const py::object& boxes, const py::object& ids,
-                         const py::object& circles, const py::object& masks) {
+Detections detections_of(const OptionalArray& rebels, const OptionalArray& boxes,
+                         const OptionalArray& ids, const OptionalArray& circles,
+                         const OptionalArray& masks) {
   Detections detections;
   if (!rebels.is_none()) detections.rebels = flags_of(rebels, "rebels");
   if (!masks.is_none() && !boxes.is_none()) {
@@ -178,8 +180,8 @@ class Scorer {
   void add(const Frame& frame, const py::object& said) {
     const bool is_result = py::isinstance<Result>(said);
     if (!is_result && !py::isinstance<Detections>(said)) {
-      return add(frame,
-                 py::cast(detections_of(said, py::none(), py::none(), py::none(), py::none())));
+      const OptionalArray none{py::none()};
+      return add(frame, py::cast(detections_of(OptionalArray(said), none, none, none, none)));
     }
     const bench::DetectorInfo detector =
         is_result ? said.cast<const Result&>().detector
@@ -261,46 +263,44 @@ class Scorer {
 }  // namespace
 
 void bind_scorer(py::module_& module) {
-  class_of<Detections>(module, "Detections", "What somebody's own detector says of a frame.")
-      .def(
-          py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
-          py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
-          py::arg("circles") = py::none(), py::arg("masks") = py::none(),
-          "rebels: N bool, which of the frame's corners move by themselves; none where not given.\n"
-          "boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has "
-          "left l and right\n"
-          "r. ids: M whole numbers from 0 on, which stay with their objects from frame to frame.\n"
-          "masks: in place of boxes, M x H x W bool: the pixels that each covers.\n"
-          "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
-          "counted.\n"
-          "Raises TypeError or ValueError for what is none of these. Places and the masks' size "
-          "are "
-          "checked\n"
-          "against the camera by Scorer.add.");
+  class_of<Detections>(module, "Detections", "The answer of your own detector to a frame.")
+      .def(py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
+           py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
+           py::arg("circles") = py::none(), py::arg("masks") = py::none(),
+           "rebels: N bool, True for corners of the frame that move by themselves; None: no "
+           "verdicts.\n"
+           "boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has "
+           "left l and\n"
+           "right r. ids: M whole numbers from 0, which stay with their objects from frame to "
+           "frame.\n"
+           "masks: in place of boxes, M x H x W bool: the pixels of each object.\n"
+           "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
+           "counted.\n"
+           "Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks "
+           "places and the\n"
+           "size of masks against the camera.");
   // Lambdas with references, because with member functions pybind11 would accept None as self.
   class_of<Scorer>(module, "Scorer",
                    "Scores a run's frames, one after another, without keeping their pictures.")
       .def(py::init<>())
       .def(
           "add",
-          [](Scorer& scorer, const Frame& frame, const py::object& said) {
-            scorer.add(frame, said);
-          },
+          [](Scorer& scorer, const Frame& frame, const Answer& said) { scorer.add(frame, said); },
           py::arg("frame"), py::arg("said"),
-          "said: a Result of the filter or of a Detector, Detections, or N bool, which of the "
-          "frame's corners are "
-          "rebels.\n"
-          "Frames come in order, each once, from the first on; what raises counts for nothing.\n"
-          "Raises ValueError for what is not in the camera's picture "
+          "said: a Result of the filter or of a Detector, Detections, or N bool, True for rebels "
+          "among the\n"
+          "frame's corners. Give the frames in order, from the first on, each once. A call that "
+          "raises adds\n"
+          "nothing. Raises ValueError for places outside of the picture "
           "(tools/recording/DETECTIONS.md).")
       .def(
           "metrics", [](Scorer& scorer) { return scorer.metrics(); },
           "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
-          "Times and\n"
-          "sizes are those of the filter; of other detectors they are None.")
+          "Times and sizes\n"
+          "are known for the filter only.")
       .def_property_readonly(
           "warnings", [](Scorer& scorer) { return scorer.warnings(); },
-          "What should not be, a line each, as lcs run tells it.");
+          "Problems of the run so far, a line each, as lcs run prints them.");
 }
 
 }  // namespace lcs::python

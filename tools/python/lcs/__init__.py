@@ -94,10 +94,10 @@ SCENARIOS: _Path = _Path(_core._shipped_folder("scenarios"))
 
 
 def simulate(scenario: Scenario) -> Simulation:
-    """The frames of a Scenario, one after another; of a recorded one, what was recorded.
+    """The frames of a Scenario, simulated or recorded, one after another.
 
-    Raises Error for what cannot be simulated, at once or, of physics that fail, in the frame where
-    they do.
+    Raises Error for a scenario that cannot be simulated: at once, or in the frame in which the physics
+    fail.
     """
     return Simulation(scenario)
 
@@ -111,9 +111,9 @@ def score(
 ) -> dict[str, _Optional[float]]:
     """The figures of metrics.json, by name; None where undefined.
 
-    said: pairs of a Frame and what a detector says of it: a Result, Detections, or N bool, which of
-    frame.corners are rebels. All frames of one run, in order. Or the folder of a stored run;
-    detections: then a CSV file of another detector (tools/recording/DETECTIONS.md).
+    said: pairs of a Frame and the answer to it: a Result, Detections, or N bool, True for rebels among
+    frame.corners. Give all frames of one run in order. Or the folder of a stored run; detections is
+    then a CSV file of another detector (tools/recording/DETECTIONS.md).
     """
     if isinstance(said, (str, _PathLike)):
         return _core._score_files(said, detections)

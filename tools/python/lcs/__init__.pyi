@@ -15,9 +15,11 @@ Pixels have (0, 0) at the centre of the top-left one; all else is in SI units an
 """
 from __future__ import annotations
 import builtins
+import collections.abc
 from collections.abc import Iterable as _Iterable
 import enum
 import numpy
+import numpy.typing
 import os
 from os import PathLike as _PathLike
 import pathlib
@@ -25,8 +27,7 @@ from pathlib import Path as _Path
 from numpy.typing import ArrayLike as _ArrayLike
 import typing
 from typing import Optional as _Optional, Union as _Union
-from . import _core
-__all__: list = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
+__all__: list[str] = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
 class Camera:
     """
     A pinhole with square pixels and no distortion: x right, y down, z forward, pixels with
@@ -64,7 +65,7 @@ class Camera:
         px
         """
     @property
-    def matrix(self) -> numpy.ndarray:
+    def matrix(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         K, 3 x 3 float64, in pixels.
         """
@@ -80,17 +81,17 @@ class Camera:
         """
 class Detections:
     """
-    What somebody's own detector says of a frame.
+    The answer of your own detector to a frame.
     """
-    def __init__(self, rebels: typing.Any = None, *, boxes: typing.Any = None, ids: typing.Any = None, circles: typing.Any = None, masks: typing.Any = None) -> None:
+    def __init__(self, rebels: numpy.typing.ArrayLike | None = None, *, boxes: numpy.typing.ArrayLike | None = None, ids: numpy.typing.ArrayLike | None = None, circles: numpy.typing.ArrayLike | None = None, masks: numpy.typing.ArrayLike | None = None) -> None:
         """
-        rebels: N bool, which of the frame's corners move by themselves; none where not given.
-        boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has left l and right
-        r. ids: M whole numbers from 0 on, which stay with their objects from frame to frame.
-        masks: in place of boxes, M x H x W bool: the pixels that each covers.
+        rebels: N bool, True for corners of the frame that move by themselves; None: no verdicts.
+        boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has left l and
+        right r. ids: M whole numbers from 0, which stay with their objects from frame to frame.
+        masks: in place of boxes, M x H x W bool: the pixels of each object.
         circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are counted.
-        Raises TypeError or ValueError for what is none of these. Places and the masks' size are checked
-        against the camera by Scorer.add.
+        Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks places and the
+        size of masks against the camera.
         """
 class Detector:
     """
@@ -99,17 +100,17 @@ class Detector:
     """
     def __init__(self, scenario: Scenario, name: str = '', *, command: str = '', timeout: float = 30.0) -> None:
         """
-        name: of the detector; lcs if not given, with command the name of the program in results.
-        command: starts the program, as 'python3 mine.py'. timeout: of each of its answers, s.
+        name: of the detector; lcs if not given. With command: its name in results.
+        command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, s.
         Raises ValueError for an unknown name, Error for a program that does not start.
         """
     def finish(self) -> list[str]:
         """
-        After the last frame: ends a program. Returns remarks, a line each.
+        Ends the program after the last frame. Returns remarks, a line each.
         """
     def step(self, frame: Frame) -> Result:
         """
-        The next frame of a scenario with the same camera; all frames in order.
+        Processes the next frame of a scenario with the same camera; give all frames in order.
         Raises Error for a program that ends or answers wrongly.
         """
     @property
@@ -117,7 +118,7 @@ class Detector:
         ...
 class Error(Exception):
     """
-    What is wrong, where, and what to do, as the program lcs says it.
+    An error as the program lcs prints it: the problem, its place, the remedy.
     """
 class Filter:
     """
@@ -129,49 +130,49 @@ class Filter:
         With the scenario's camera, preset and settings.
         """
     @typing.overload
-    def __init__(self, camera: Camera, preset: str = 'default', *, set: typing.Any = None) -> None:
+    def __init__(self, camera: Camera, preset: str = 'default', *, set: collections.abc.Mapping[str, typing.Any] | None = None) -> None:
         """
-        preset: default, lab or cars. set: parameters on top of it, by the keys of
+        preset: default, lab or cars. set: parameters that replace the preset's, by the keys of
         filter/parameters.cpp: {"circle.gap": 0.3}; angles in degrees.
-        Raises Error for what is no preset, key or value, ValueError for a camera that is none.
+        Raises Error for an unknown preset, key or value, ValueError for an impossible camera.
         """
-    def step(self, corners: typing.Any, motion: Motion, signatures: typing.Any = None, *, picture: typing.Any = None) -> Result:
+    def step(self, corners: numpy.typing.ArrayLike, motion: Motion, signatures: numpy.typing.ArrayLike | None = None, *, picture: numpy.typing.ArrayLike | None = None) -> Result:
         """
-        The next frame.
+        Processes the next frame.
 
         corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 uint8;
         picture: height x width uint8, grey, without distortion. Bodies that approach at constant speed are
         found only with pictures, and only by the preset default.
-        Raises TypeError or ValueError for arrays that are none of these, and is then as if the frame had
-        not been given. Bad numbers never raise: they are left out, see diagnostics.
+        Raises TypeError or ValueError for arrays of another type or shape, and then ignores the frame.
+        Numbers that are not finite or out of range never raise: they are left out, see diagnostics.
         """
     @property
     def diagnostics(self) -> list[str]:
         """
-        What was wrong with the data so far, a line for each kind.
+        Problems of the data so far, a line for each kind.
         """
 class Frame:
     """
-    What the sensors said, and apart from that what is true. Arrays are read-only and stay as they are
-    when the simulation goes on; those of pictures are views.
+    The data of the sensors, and apart from them the truth. Arrays are read-only and keep their values
+    when the simulation continues; those of pictures are views.
     """
     def __repr__(self) -> str:
         ...
     @property
-    def corners(self) -> numpy.ndarray:
+    def corners(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        N x 2 float64, x and y in pixels: FAST's.
+        N x 2 float64, x and y in pixels: the corners that FAST found.
         """
     @property
-    def grey(self) -> numpy.ndarray:
+    def grey(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
-        H x W uint8: what the corners were found in.
+        H x W uint8: the grey picture in which the corners were found.
         """
     @property
     def imu(self) -> numpy.ndarray:
         """
         Readings since the last frame, fields t (s), gyro (3, rad/s), accel (3, m/s^2), in the
-        IMU's frame; none of a recorded frame.
+        IMU's frame; empty for a recorded frame.
         """
     @property
     def index(self) -> int:
@@ -181,29 +182,29 @@ class Frame:
     @property
     def motion(self) -> Motion:
         """
-        Motion since the last frame, as detectors are told: by the IMU and the odometry, with
-        their errors, unless the scenario says otherwise.
+        Motion since the last frame as detectors get it: by IMU and odometry with their errors, or as the
+        scenario's ego_motion says.
         """
     @property
     def noise(self) -> float | None:
         """
-        Standard deviation of the noise of grey, in grey levels; None where all flat parts are black or white.
+        Standard deviation of the noise of grey, in grey levels; None if all flat parts are black or white.
         """
     @property
     def odometry(self) -> numpy.ndarray:
         """
-        Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up),
-        yaw_rate (rad/s, by the wheels; nan where they do not tell it).
+        Readings since the last frame, fields t (s), velocity (3, m/s, of the rover in its frame: x forward,
+        z up), yaw_rate (rad/s, by the wheels; nan if they do not measure it).
         """
     @property
-    def picture(self) -> numpy.ndarray:
+    def picture(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
         H x W x 3 uint8, blue, green, red, as OpenCV has it; picture[..., ::-1] is RGB.
         """
     @property
-    def signatures(self) -> numpy.ndarray:
+    def signatures(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
-        N x 32 uint8: what each corner looks like, ORB's bits.
+        N x 32 uint8: the appearance of each corner, by the bits of ORB.
         """
     @property
     def time(self) -> float:
@@ -218,58 +219,28 @@ class Frame:
     @property
     def truth(self) -> Truth:
         """
-        What no detector is to be told.
+        The truth of the frame; detectors must not use it.
         """
 class Label(enum.IntEnum):
     """
-    What is true of a corner (tools/scoring/SCORING.md).
+    The truth of a corner (tools/scoring/SCORING.md).
     """
-    FIXED: typing.ClassVar[Label]
-    INDISTINCT: typing.ClassVar[Label]
-    NONE: typing.ClassVar[Label]
-    REBEL: typing.ClassVar[Label]
-    _member_map_: typing.ClassVar[dict]
-    _member_names_: typing.ClassVar[list] = ['NONE', 'FIXED', 'INDISTINCT', 'REBEL']
-    _unhashable_values_: typing.ClassVar[list] = list()
-    _use_args_: typing.ClassVar[bool] = True
-    _value2member_map_: typing.ClassVar[dict]
+    FIXED = ...
+    INDISTINCT = ...
+    NONE = ...
+    REBEL = ...
     _member_type_ = builtins.int
-    @staticmethod
-    def _generate_next_value_(name, start, count, last_values):
-        """
-                Generate the next value when not given.
-
-                name: the name of the member
-                start: the initial start value or None
-                count: the number of existing members
-                last_values: the list of values assigned
-
-        """
-    @staticmethod
-    def _new_member_(type, *args, **kwargs):
-        """
-        Create and return a new object.  See help(type) for accurate signature.
-        """
-    @classmethod
-    def __new__(cls, value):
-        ...
-    def __format__(self, format_spec):
-        ...
-    def _value_repr_(self):
-        """
-        Return repr(self).
-        """
 class Motion:
     """
     How the camera moved from the last frame to this one. Camera frame: x right, y down, z
     forward.
     """
     @staticmethod
-    def between(T_WC_before: typing.Any, T_WC_now: typing.Any, dt: float) -> Motion:
+    def between(T_WC_before: numpy.typing.ArrayLike, T_WC_now: numpy.typing.ArrayLike, dt: float) -> Motion:
         """
         Of two poses of the camera, 4 x 4, that are dt seconds apart.
         """
-    def __init__(self, *, dt: float, rotation: typing.Any = None, velocity: typing.Any = None, angular_velocity: typing.Any = None, up: typing.Any = None, height: float | None = None, unseen_turn: float = 0.0, velocity_sigma: float = 0.0) -> None:
+    def __init__(self, *, dt: float, rotation: numpy.typing.ArrayLike | None = None, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, up: numpy.typing.ArrayLike | None = None, height: float | None = None, unseen_turn: float = 0.0, velocity_sigma: float = 0.0) -> None:
         """
         dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its frame of now;
         angular_velocity 3, rad/s, that of the rotation where not given; up and height: the ground, see
@@ -278,14 +249,14 @@ class Motion:
     def __repr__(self) -> str:
         ...
     @property
-    def angular_velocity(self) -> numpy.ndarray:
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        3, rad/s: mean body rate of the camera.
+        3 float64, rad/s: mean body rate of the camera.
         """
     @property
-    def displacement(self) -> numpy.ndarray:
+    def displacement(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        3, m: of the camera since the last frame, in its frame of now.
+        3 float64, m: of the camera since the last frame, in its frame of now.
         """
     @property
     def dt(self) -> float:
@@ -295,108 +266,77 @@ class Motion:
     @property
     def height(self) -> float | None:
         """
-        m: of the camera above the ground; None where not known.
+        m: of the camera above the ground; None if unknown.
         """
     @property
-    def rotation(self) -> numpy.ndarray:
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        3 x 3: takes camera coordinates of the last frame to those of this one.
+        3 x 3 float64: takes camera coordinates of the last frame to those of this one.
         """
     @property
     def unseen_turn(self) -> float:
         """
-        rad: standard deviation of what is wrong with the rotation where the gyro was
-        not heard; 0 where it was.
+        rad: standard deviation of the rotation's error while gyro readings are missing; else 0.
         """
     @property
-    def up(self) -> typing.Any:
+    def up(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
-        3: unit normal of the ground, against gravity, in the camera's frame; None where not known.
+        3 float64: unit normal of the ground, against gravity, in the camera's frame; None if unknown.
         """
     @property
     def usable(self) -> bool:
         """
-        Whether a filter can go on by it from the last frame; it starts anew where not.
+        Whether a filter can predict from the last frame by it. If not, the filter starts anew.
         False for the first frame.
         """
     @property
-    def velocity(self) -> numpy.ndarray:
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        3, m/s: mean velocity of the camera since the last frame, in its frame of now.
+        3 float64, m/s: mean velocity of the camera since the last frame, in its frame of now.
         """
     @property
     def velocity_sigma(self) -> float:
         """
-        m/s: standard deviation of what is wrong with the velocity; 0 where nobody tells.
+        m/s: standard deviation of the velocity's error; 0 if unknown.
         """
 class Reason(enum.IntEnum):
     """
     Which of the filter's rules settled a corner's verdict (filter/reason.h).
     """
-    ALPHA_BEND: typing.ClassVar[Reason]
-    ALPHA_FIRST: typing.ClassVar[Reason]
-    ALPHA_ON_FIELD: typing.ClassVar[Reason]
-    ALPHA_SECOND: typing.ClassVar[Reason]
-    ALPHA_TAKEN: typing.ClassVar[Reason]
-    ALPHA_THIRD: typing.ClassVar[Reason]
-    COMER: typing.ClassVar[Reason]
-    FIRST_SIGHTING: typing.ClassVar[Reason]
-    GOER: typing.ClassVar[Reason]
-    INHERITED: typing.ClassVar[Reason]
-    IN_PSI: typing.ClassVar[Reason]
-    NORMAL_EDGE: typing.ClassVar[Reason]
-    NORMAL_NEIGHBOURS: typing.ClassVar[Reason]
-    NOT_FINITE: typing.ClassVar[Reason]
-    NO_TIME: typing.ClassVar[Reason]
-    OUTBID: typing.ClassVar[Reason]
-    OUTSIDE: typing.ClassVar[Reason]
-    REBEL_EDGE: typing.ClassVar[Reason]
-    REBEL_NEIGHBOURS: typing.ClassVar[Reason]
-    TOO_MANY: typing.ClassVar[Reason]
-    UNKNOWN: typing.ClassVar[Reason]
-    XI_1: typing.ClassVar[Reason]
-    XI_2: typing.ClassVar[Reason]
-    XI_3: typing.ClassVar[Reason]
-    XI_4: typing.ClassVar[Reason]
-    XI_5: typing.ClassVar[Reason]
-    _member_map_: typing.ClassVar[dict]
-    _member_names_: typing.ClassVar[list] = ['UNKNOWN', 'NOT_FINITE', 'OUTSIDE', 'TOO_MANY', 'IN_PSI', 'NO_TIME', 'NORMAL_EDGE', 'REBEL_EDGE', 'NORMAL_NEIGHBOURS', 'REBEL_NEIGHBOURS', 'COMER', 'GOER', 'INHERITED', 'FIRST_SIGHTING', 'ALPHA_FIRST', 'XI_5', 'XI_4', 'OUTBID', 'XI_1', 'ALPHA_SECOND', 'ALPHA_BEND', 'ALPHA_ON_FIELD', 'ALPHA_TAKEN', 'ALPHA_THIRD', 'XI_3', 'XI_2']
-    _unhashable_values_: typing.ClassVar[list] = list()
-    _use_args_: typing.ClassVar[bool] = True
-    _value2member_map_: typing.ClassVar[dict]
+    ALPHA_BEND = ...
+    ALPHA_FIRST = ...
+    ALPHA_ON_FIELD = ...
+    ALPHA_SECOND = ...
+    ALPHA_TAKEN = ...
+    ALPHA_THIRD = ...
+    COMER = ...
+    FIRST_SIGHTING = ...
+    GOER = ...
+    INHERITED = ...
+    IN_PSI = ...
+    NORMAL_EDGE = ...
+    NORMAL_NEIGHBOURS = ...
+    NOT_FINITE = ...
+    NO_TIME = ...
+    OUTBID = ...
+    OUTSIDE = ...
+    REBEL_EDGE = ...
+    REBEL_NEIGHBOURS = ...
+    TOO_MANY = ...
+    UNKNOWN = ...
+    XI_1 = ...
+    XI_2 = ...
+    XI_3 = ...
+    XI_4 = ...
+    XI_5 = ...
     _member_type_ = builtins.int
-    @staticmethod
-    def _generate_next_value_(name, start, count, last_values):
-        """
-                Generate the next value when not given.
-
-                name: the name of the member
-                start: the initial start value or None
-                count: the number of existing members
-                last_values: the list of values assigned
-
-        """
-    @staticmethod
-    def _new_member_(type, *args, **kwargs):
-        """
-        Create and return a new object.  See help(type) for accurate signature.
-        """
-    @classmethod
-    def __new__(cls, value):
-        ...
-    def __format__(self, format_spec):
-        ...
-    def _value_repr_(self):
-        """
-        Return repr(self).
-        """
 class Result:
     """
-    What a detector says of a frame. Structured arrays have the fields of layers.jsonl; places are in
+    The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; places are in
     pixels, angles in rad, speeds in px/s.
     """
     @property
-    def boxes(self) -> numpy.ndarray:
+    def boxes(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         M x 4 float64: left, top, right, bottom of the squares, pixel edges.
         """
@@ -413,28 +353,27 @@ class Result:
     @property
     def edges(self) -> numpy.ndarray:
         """
-        Tracked corners, normal and then rebel ones: id, rebel, x, y, trust, age, speed, angle, corner
-        (its place in the corners, -1 none), circle (its place among the circles of its kind, -1 none), ...
+        Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, corner (index of
+        its corner, -1: none), circle (index of its circle among those of its kind, -1: none), ...
         """
     @property
     def ignored(self) -> numpy.ndarray:
         """
-        Regions psi whose corners were not looked at: shape (1 circle, 2 rectangle), x, y, size_x,
-        size_y.
+        Regions psi, whose corners were ignored: shape (1: circle, 2: rectangle), x, y, size_x, size_y.
         """
     @property
-    def outlines(self) -> list:
+    def outlines(self) -> list[numpy.typing.NDArray[numpy.float64]]:
         """
-        Of each square K x 2 float64: x, y of the convex hull of its edges, clockwise as the
-        picture is seen; none of the presets lab and cars.
+        For each square K x 2 float64: x, y of the convex hull of its edges, clockwise in the picture;
+        empty with the presets lab and cars.
         """
     @property
-    def reasons(self) -> numpy.ndarray:
+    def reasons(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
         N uint8, a Reason for each verdict.
         """
     @property
-    def rebels(self) -> numpy.ndarray:
+    def rebels(self) -> numpy.typing.NDArray[numpy.bool_]:
         """
         N bool: the corners that move by themselves.
         """
@@ -445,27 +384,28 @@ class Result:
         rebel_circles, ...
         """
     @property
-    def verdicts(self) -> numpy.ndarray:
+    def verdicts(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
         N uint8, a Verdict for each corner.
         """
 class Scenario:
     """
-    What is simulated, or what was recorded: a YAML file as scenarios/README.md has it.
+    A scenario to simulate, or a recording: a YAML file of the form in scenarios/README.md.
     """
     @staticmethod
-    def from_yaml(text: str, *, file: str | os.PathLike[str] = ..., set: typing.Any = None, seed: typing.Any = None) -> Scenario:
+    def from_yaml(text: str, *, file: str | os.PathLike[str] = ..., set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> Scenario:
         """
-        The same of text. file: that it might be, which gives the name; paths begin at its folder.
+        A scenario from YAML text. file: a path that gives the name, and the folder from which relative paths
+        begin; it need not exist.
         """
-    def __init__(self, file: str | os.PathLike[str], *, set: typing.Any = None, seed: typing.Any = None) -> None:
+    def __init__(self, file: str | os.PathLike[str], *, set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> None:
         """
-        Reads and checks all of it.
+        Reads and checks the whole file.
 
-        set: values in place of the file's, as lcs run --set takes them: {"ego.speed": "0.7 m/s"}.
-        seed: in place of the file's.
-        Raises Error with file, line, what is wrong and what to do. Warns of settings of the filter that
-        have no effect.
+        set: values that replace the file's, as in lcs run --set: {"ego.speed": "0.7 m/s"}.
+        seed: replaces the file's.
+        Raises Error with file, line, problem and remedy. Warns of settings of the filter that have no
+        effect.
         """
     def __repr__(self) -> str:
         ...
@@ -478,12 +418,12 @@ class Scenario:
     @property
     def frames(self) -> int:
         """
-        How many; of a recording at the most.
+        Number of frames; for a recording an upper bound.
         """
     @property
     def groups(self) -> list[str]:
         """
-        That it belongs to, as "short".
+        Groups of the scenario, such as "short".
         """
     @property
     def name(self) -> str:
@@ -498,7 +438,7 @@ class Scenario:
     @property
     def recorded(self) -> bool:
         """
-        Whether the frames are those of a recording, not of a simulation.
+        Whether the frames come from a recording instead of a simulation.
         """
     @property
     def seed(self) -> int:
@@ -509,21 +449,21 @@ class Scorer:
     """
     def __init__(self) -> None:
         ...
-    def add(self, frame: Frame, said: typing.Any) -> None:
+    def add(self, frame: Frame, said: Result | Detections | numpy.typing.ArrayLike) -> None:
         """
-        said: a Result of the filter or of a Detector, Detections, or N bool, which of the frame's corners are rebels.
-        Frames come in order, each once, from the first on; what raises counts for nothing.
-        Raises ValueError for what is not in the camera's picture (tools/recording/DETECTIONS.md).
+        said: a Result of the filter or of a Detector, Detections, or N bool, True for rebels among the
+        frame's corners. Give the frames in order, from the first on, each once. A call that raises adds
+        nothing. Raises ValueError for places outside of the picture (tools/recording/DETECTIONS.md).
         """
-    def metrics(self) -> dict:
+    def metrics(self) -> dict[str, typing.Any]:
         """
-        All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. Times and
-        sizes are those of the filter; of other detectors they are None.
+        All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. Times and sizes
+        are known for the filter only.
         """
     @property
     def warnings(self) -> list[str]:
         """
-        What should not be, a line each, as lcs run tells it.
+        Problems of the run so far, a line each, as lcs run prints them.
         """
 class Simulation:
     """
@@ -532,7 +472,7 @@ class Simulation:
     """
     def __init__(self, scenario: Scenario) -> None:
         ...
-    def __iter__(self) -> typing.Any:
+    def __iter__(self) -> collections.abc.Iterator[Frame]:
         ...
     def __next__(self) -> Frame:
         ...
@@ -542,47 +482,46 @@ class Simulation:
     @property
     def warnings(self) -> list[str]:
         """
-        What should not be, until now, a line each: the rover or an actor ran into something, fell,
-        tipped over.
+        Problems so far, a line each: the rover or an actor ran into something, fell, or tipped over.
         """
 class Truth:
     """
-    What is true of a frame, as tools/scoring/SCORING.md defines it. Of a recorded frame there are
-    labels alone, and motion, depth, object_ids and poses raise ValueError.
+    The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame has only labels;
+    its motion, depth, object_ids and poses raise ValueError.
     """
-    def of(self, points: typing.Any) -> numpy.ndarray:
+    def of(self, points: numpy.typing.ArrayLike) -> numpy.ndarray:
         """
-        The same of other points, N x 2 in pixels: for corners of one's own.
-        """
-    @property
-    def T_WC(self) -> numpy.ndarray:
-        """
-        4 x 4: takes camera coordinates to the world's (z up), m.
+        The rows of `corners` for other points, N x 2 in pixels, such as corners of your own detector.
         """
     @property
-    def T_WO(self) -> numpy.ndarray:
+    def T_WC(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        K x 4 x 4: likewise of the object with that id; 0 is the world itself.
+        4 x 4 float64: takes camera coordinates to the world's (z up), m.
         """
     @property
-    def boxes(self) -> numpy.ndarray:
+    def T_WO(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        M x 4 float64: left, top, right, bottom of these, pixel edges.
+        K x 4 x 4 float64: takes coordinates of the object with that id to the world's; 0 is the world.
+        """
+    @property
+    def boxes(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        M x 4 float64: left, top, right, bottom of `objects`, pixel edges.
         """
     @property
     def corners(self) -> numpy.ndarray:
         """
-        A row for each of the frame's corners: label, radial, outline, object (its id; 0 the
-        fixed setting, -1 none), depth_m, motion_x, motion_y (px until the next frame),
-        static_motion_x, static_motion_y (px: as if it were fixed).
+        A row for each of the frame's corners: label, radial, outline, object (its id; 0: the fixed world,
+        -1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,
+        static_motion_y (px: the same if the point were fixed).
         """
     @property
-    def depth(self) -> numpy.ndarray:
+    def depth(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         H x W float32: z-depth, m; inf where there is sky.
         """
     @property
-    def labels(self) -> numpy.ndarray:
+    def labels(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
         N uint8, a Label for each of the frame's corners.
         """
@@ -594,59 +533,29 @@ class Truth:
     @property
     def names(self) -> dict[int, str]:
         """
-        Of all objects, by id.
+        The names of all objects by id.
         """
     @property
-    def object_ids(self) -> numpy.ndarray:
+    def object_ids(self) -> numpy.typing.NDArray[numpy.int32]:
         """
         H x W int32: id of the object that a pixel shows; 0 the fixed setting, -1 sky and the rover.
         """
     @property
     def objects(self) -> numpy.ndarray:
         """
-        A row for each object that is seen: object (its id), left, top, right, bottom (pixel
-        edges of what is seen of it), visible_px, visible_fraction, moving.
+        A row for each visible object: object (its id), left, top, right, bottom (pixel edges of its
+        visible part), visible_px, visible_fraction, moving.
         """
 class Verdict(enum.IntEnum):
     """
-    What became of a corner.
+    The verdict on a corner.
     """
-    IGNORED: typing.ClassVar[Verdict]
-    NORMAL: typing.ClassVar[Verdict]
-    PENDING: typing.ClassVar[Verdict]
-    REBEL: typing.ClassVar[Verdict]
-    _member_map_: typing.ClassVar[dict]
-    _member_names_: typing.ClassVar[list] = ['IGNORED', 'PENDING', 'NORMAL', 'REBEL']
-    _unhashable_values_: typing.ClassVar[list] = list()
-    _use_args_: typing.ClassVar[bool] = True
-    _value2member_map_: typing.ClassVar[dict]
+    IGNORED = ...
+    NORMAL = ...
+    PENDING = ...
+    REBEL = ...
     _member_type_ = builtins.int
-    @staticmethod
-    def _generate_next_value_(name, start, count, last_values):
-        """
-                Generate the next value when not given.
-
-                name: the name of the member
-                start: the initial start value or None
-                count: the number of existing members
-                last_values: the list of values assigned
-
-        """
-    @staticmethod
-    def _new_member_(type, *args, **kwargs):
-        """
-        Create and return a new object.  See help(type) for accurate signature.
-        """
-    @classmethod
-    def __new__(cls, value):
-        ...
-    def __format__(self, format_spec):
-        ...
-    def _value_repr_(self):
-        """
-        Return repr(self).
-        """
-def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '') -> dict:
+def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '') -> dict[str, typing.Any]:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
 
@@ -657,11 +566,11 @@ def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, me
     verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
     Raises Error for suites that cannot be read, or have nothing in common.
     """
-def detectors() -> dict:
+def detectors() -> dict[str, typing.Any]:
     """
-    The names of the bench's detectors, with a line on each.
+    The names of the bench's detectors, with a line about each.
     """
-def generate(paths: typing.Any = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], frames: int = 0, seed: int | None = None, seeds: int = 1, set: typing.Any = None, jobs: int = 1, shard: str = '', progress: typing.Any = None) -> dict:
+def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], frames: int = 0, seed: int | None = None, seeds: int = 1, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
 
@@ -670,7 +579,7 @@ def generate(paths: typing.Any = None, *, out: str = '', worlds: str = '', count
     Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
     same call goes on after it was interrupted.
     """
-def kinematics(config: str = '', *, set: typing.Any = None, tolerance: float = 1.0, quick: bool = False, out: str | os.PathLike[str] = 'out/kinematics', progress: typing.Any = None) -> dict:
+def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any] | None = None, tolerance: float = 1.0, quick: bool = False, out: str | os.PathLike[str] = 'out/kinematics', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
 
@@ -678,11 +587,11 @@ def kinematics(config: str = '', *, set: typing.Any = None, tolerance: float = 1
     Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
     NaN without theory) and verdict; text: as the program prints it.
     """
-def merge(parts: typing.Any, *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '') -> dict:
+def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '') -> dict[str, typing.Any]:
     """
     Joins the folders of the parts of a suite (shard). Returns as suite.
     """
-def replay(path: str | os.PathLike[str], *, out: str = '', recording: typing.Any = None, ego_motion: str = '', fast_threshold: str = '', preset: str = '', set: typing.Any = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], video: bool = False, events: bool = False, progress: typing.Any = None) -> dict:
+def replay(path: str | os.PathLike[str], *, out: str = '', recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', fast_threshold: str = '', preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], video: bool = False, events: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
@@ -690,7 +599,7 @@ def replay(path: str | os.PathLike[str], *, out: str = '', recording: typing.Any
     "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. fast_threshold:
     contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.
     """
-def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, set: typing.Any = None, frames: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, detections: str = '', beside: list[str] = [], recorded: str = '', keep: str = 'all', video: bool = False, events: bool = False, report: bool = False, progress: typing.Any = None) -> dict:
+def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, frames: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, detections: str = '', beside: list[str] = [], recorded: str = '', keep: str = 'all', video: bool = False, events: bool = False, report: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
@@ -701,20 +610,20 @@ def score(said: _Union[str, _PathLike[str], _Iterable[tuple[Frame, _Union[Result
     """
     The figures of metrics.json, by name; None where undefined.
 
-        said: pairs of a Frame and what a detector says of it: a Result, Detections, or N bool, which of
-        frame.corners are rebels. All frames of one run, in order. Or the folder of a stored run;
-        detections: then a CSV file of another detector (tools/recording/DETECTIONS.md).
+        said: pairs of a Frame and the answer to it: a Result, Detections, or N bool, True for rebels among
+        frame.corners. Give all frames of one run in order. Or the folder of a stored run; detections is
+        then a CSV file of another detector (tools/recording/DETECTIONS.md).
 
     """
 def simulate(scenario: Scenario) -> Simulation:
     """
-    The frames of a Scenario, one after another; of a recorded one, what was recorded.
+    The frames of a Scenario, simulated or recorded, one after another.
 
-        Raises Error for what cannot be simulated, at once or, of physics that fail, in the frame where
-        they do.
+        Raises Error for a scenario that cannot be simulated: at once, or in the frame in which the physics
+        fail.
 
     """
-def suite(paths: typing.Any = None, *, worlds: str = '', count: int = 60, family: str = '', group: str | None = None, filter: str = '', seeds: int | None = None, jobs: int = 0, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], set: typing.Any = None, recorded: str = '', detections: str = '', keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', anew: bool = False, progress: typing.Any = None) -> dict:
+def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, worlds: str = '', count: int = 60, family: str = '', group: str | None = None, filter: str = '', seeds: int | None = None, jobs: int = 0, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, recorded: str = '', detections: str = '', keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
@@ -733,7 +642,7 @@ def suite(paths: typing.Any = None, *, worlds: str = '', count: int = 60, family
     comparison with the baseline, as of compare; messages.
     Finished runs are kept if it raises or is interrupted, and the same call goes on from there.
     """
-def tune(suites: typing.Any, *, validate: typing.Any = None, keys: list[str] = [], set: typing.Any = None, evaluations: int = 300, seed: int = 1, out: str | os.PathLike[str] = 'out/tune', progress: typing.Any = None) -> dict:
+def tune(suites: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, validate: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, keys: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, evaluations: int = 300, seed: int = 1, out: str | os.PathLike[str] = 'out/tune', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Learns the filter's parameters from suites of the split train, as lcs tune.
 
@@ -742,7 +651,7 @@ def tune(suites: typing.Any, *, validate: typing.Any = None, keys: list[str] = [
     and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
     The same call goes on after it was interrupted.
     """
-def world(family: str, seed: int = 1, *, out: str = '', pictures: str = '', sheet: bool = False) -> dict:
+def world(family: str, seed: int = 1, *, out: str = '', pictures: str = '', sheet: bool = False) -> dict[str, typing.Any]:
     """
     Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).
 
