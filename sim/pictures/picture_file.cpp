@@ -139,7 +139,7 @@ Size webp_size(std::string_view bytes) {
 
 /// Captures stderr during its lifetime. libpng and libjpeg report only there, and their text would
 /// appear beside our own message. One instance at a time.
-class Overheard {
+class [[nodiscard]] Overheard {
  public:
   Overheard() : lock_(mutex()) {
     before_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);

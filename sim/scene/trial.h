@@ -9,7 +9,7 @@
 namespace lcs::sim {
 
 /// How the child ended.
-struct Trial {
+struct [[nodiscard]] Trial {
   bool fine = false;    ///< the action returned
   std::string refused;  ///< message of the exception that it threw, or empty
   /// The signal or limit that ended it, or "": "signal SEGV", "10 s of processor time", "memory".

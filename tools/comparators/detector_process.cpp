@@ -51,7 +51,7 @@ void end_with_writer(int reads, pid_t group) {
 
 /// Blocks SIGPIPE: writing to an ended program then fails with an error. The signal remains in use
 /// for this program's own output.
-class WithoutPipeSignal {
+class [[nodiscard]] WithoutPipeSignal {
  public:
   WithoutPipeSignal() {
     sigemptyset(&pipe_);

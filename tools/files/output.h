@@ -15,7 +15,7 @@ namespace lcs::bench {
 
 /// A process holds this lock while it works in a folder. The system releases it when the process
 /// ends, also by SIGKILL.
-class FolderLock {
+class [[nodiscard]] FolderLock {
  public:
   /// Does not wait if another process holds the lock.
   explicit FolderLock(const std::filesystem::path& folder);

@@ -14,7 +14,7 @@ namespace {
 /// Options that OpenCV passes to `avformat_open_input`; it reads them at each opening.
 constexpr const char* kOptionsVariable = "OPENCV_FFMPEG_CAPTURE_OPTIONS";
 /// Sets an environment variable for its lifetime, then restores it.
-class Variable {
+class [[nodiscard]] Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
     if (const char* before = std::getenv(name)) before_ = before;

@@ -15,7 +15,7 @@ void require_no_fork();
 
 /// Restricts OpenCV to one thread while any instance exists, as in the program. Restores the number
 /// of threads afterwards for a `cv2` in the same process.
-class OneThread {
+class [[nodiscard]] OneThread {
  public:
   OneThread();
   ~OneThread();

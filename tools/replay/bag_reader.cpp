@@ -28,7 +28,7 @@ constexpr const char* kPosesFile = "poses.txt";
 constexpr input::FileKind kMessages{input::kMebibyte, "run it again"};
 
 /// A folder that is removed with all that is in it.
-class TemporaryFolder {
+class [[nodiscard]] TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "lcs-bag-XXXXXX").string();
