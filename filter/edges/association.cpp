@@ -120,33 +120,30 @@ void Association::seek(std::span<const Track> predicted, double dt_s) {
 ///   which few bits differ.
 bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought) {
   bool is_sure = false;
-  sought.grid.visit_runs(x_px, sought.reach_px, [&](std::size_t first, std::size_t last) {
-    std::size_t count = last - first;
-    if (signature != nullptr) {
-      count =
-          loops().alike(*signature, &sought.signatures[first], count, most_bits_, alike_.data());
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = first + (signature != nullptr ? alike_[i].place : i);
-      if (sought.grid.distance2(place, x_px) > sought.reach_px * sought.reach_px) continue;
-      const int t = sought.tracks[sought.grid.index_at(place)];
-      const Expected& track = expected_[t];
-      // Static points are not followed at steps that are too large for movers, either.
-      if ((track.track_px - x_px).squaredNorm() > all_.reach_px * all_.reach_px) continue;
-      const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
-      const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
-      // Far from both predictions only the uniform density is left.
-      const double ln_density =
-          std::max(still, moving) < kNone + track.ln_anywhere
-              ? track.ln_anywhere
-              : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
-      // Half as far as a pair may be, in deviations and in bits.
-      const double ln_off = std::max(still - track.still.ln_most, moving - track.moving.ln_most);
-      is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
-                            ln_off > -0.5 * (0.5 * kFar) * (0.5 * kFar));
-      offer({ln_density + likeness, t, static_cast<float>(likeness)});
-    }
-  });
+  std::size_t count = sought.grid.find_within(x_px, sought.reach_px, near_);
+  if (signature != nullptr) {
+    count = loops().alike(*signature, sought.signatures.data(), near_.places.data(), count,
+                          most_bits_, alike_.data());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int place = signature != nullptr ? alike_[i].place : near_.places[i];
+    const int t = sought.tracks[sought.grid.index_at(static_cast<std::size_t>(place))];
+    const Expected& track = expected_[t];
+    // Static points are not followed at steps that are too large for movers, either.
+    if ((track.track_px - x_px).squaredNorm() > all_.reach_px * all_.reach_px) continue;
+    const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
+    const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
+    // Far from both predictions only the uniform density is left.
+    const double ln_density =
+        std::max(still, moving) < kNone + track.ln_anywhere
+            ? track.ln_anywhere
+            : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
+    // Half as far as a pair may be, in deviations and in bits.
+    const double ln_off = std::max(still - track.still.ln_most, moving - track.moving.ln_most);
+    is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
+                          ln_off > -0.5 * (0.5 * kFar) * (0.5 * kFar));
+    offer({ln_density + likeness, t, static_cast<float>(likeness)});
+  }
   return is_sure;
 }
 
@@ -213,31 +210,39 @@ void Association::weigh_voices(const Neighbourhood& around) {
 /// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
 /// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
 Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                                          double noise2_px2) const {
-  const double far2_px2 = std::pow(kFar * parameters_.neighbour_reach_px, 2);
+                                          double noise2_px2, double ln_spread) const {
+  const double far_px = kFar * parameters_.neighbour_reach_px, far2_px2 = far_px * far_px;
   const std::size_t first_voice = corner * voices.size();
-  // The least that a vote can spread: without a step.
-  const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
   std::size_t count = 0;
   double most = 0;  // that the voices can add to any pair
   for (; count < voices.size() && voices[count].distance2 <= far2_px2; ++count) {
     most += voice_weights_[first_voice + count] *
-            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_least);
+            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_spread);
   }
   const PairColumns pairs = {step_x_.data(), step_y_.data(), likeness_of_.data(), first_.data()};
   Match best{0, static_cast<int>(corner), -1, 0};
-  for (std::size_t p = first_[corner]; p < first_[corner + 1]; ++p) {
-    if (pairs_[p].weight + most < best.weight) break;
-    const float x = step_x_[p], y = step_y_[p];
-    const double variance = step_variance_px2(noise2_px2, x * x + y * y);
-    const AskedStep step = {x, y, static_cast<float>(-0.5 / variance),
-                            static_cast<float>(std::log(2 * kPi * variance))};
-    const double weight =
-        pairs_[p].weight + loops().votes(pairs, voices_.data() + first_voice,
-                                         voice_weights_.data() + first_voice,
-                                         voice_clutter_.data() + first_voice, count, step);
-    if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
-      best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};
+  AskedSteps asked{};
+  std::array<float, kLanes> votes;
+  for (std::size_t p = first_[corner]; p < first_[corner + 1]; p += kLanes) {
+    std::size_t steps = 0;
+    for (; steps < std::min(kLanes, first_[corner + 1] - p); ++steps) {
+      if (pairs_[p + steps].weight + most < best.weight) break;
+      const float x = step_x_[p + steps], y = step_y_[p + steps];
+      const double variance = step_variance_px2(noise2_px2, x * x + y * y);
+      asked.x_px[steps] = x;
+      asked.y_px[steps] = y;
+      asked.per_px2[steps] = static_cast<float>(-0.5 / variance);
+      asked.ln_spread[steps] = static_cast<float>(std::log(2 * kPi * variance));
+    }
+    if (steps == 0) break;
+    loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
+                  voice_clutter_.data() + first_voice, count, asked, votes.data());
+    for (std::size_t step = 0; step < steps; ++step) {
+      const Pair& pair = pairs_[p + step];
+      const double weight = pair.weight + votes[step];
+      if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
+        best = {weight, best.corner, pair.track, pair.likeness};
+      }
     }
   }
   return best;
@@ -253,10 +258,12 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   seek(predicted, dt_s);
   find_pairs(chi);
   weigh_voices(around);
+  // The least that a vote can spread: without a step.
+  const double ln_spread = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
-    const Match best = best_pair(c, around.of(c), noise2_px2);
+    const Match best = best_pair(c, around.of(c), noise2_px2, ln_spread);
     if (best.track >= 0) matches_.push_back(best);
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {

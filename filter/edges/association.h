@@ -104,7 +104,8 @@ class Association {
   double clutter_ppx2(std::size_t corner) const;
   double step_variance_px2(double noise2_px2, double step2_px2) const;
   void weigh_voices(const Neighbourhood& around);
-  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, double noise2_px2) const;
+  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, double noise2_px2,
+                  double ln_spread) const;
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
@@ -113,7 +114,8 @@ class Association {
   // Scratch storage of the current frame; members, so that a frame need not allocate.
   Sought followed_;                   // tracks with three sightings, near their predictions
   Sought all_;                        // all tracks, about their rotated places
-  std::vector<Alike> alike_;          // to a corner's signature
+  PointGrid::Found near_;             // to a corner
+  std::vector<Alike> alike_;          // of these, to its signature
   std::vector<Expected> expected_;    // of each track
   std::vector<Pair> pairs_;           // by corner
   std::vector<std::uint32_t> first_;  // index of each corner's first pair

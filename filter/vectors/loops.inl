@@ -217,34 +217,25 @@ inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
   return (x > 0.0F ? x : Floats{}) + 2.0F * s * sum;
 }
 
-float votes(const PairColumns& pairs, const int* neighbours, const float* weights,
-            const float* ln_clutter, std::size_t count, const AskedStep& step) {
-  constexpr float kNever = -1e30F;
-  Floats sum = {};
-  for (std::size_t voice = 0; voice < count; voice += kLanes) {
-    float agrees[kLanes];  // ln V, before what is common to all pairs of a corner
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      agrees[lane] = kNever;
-      if (voice + lane >= count) continue;
-      const std::uint32_t* const first = pairs.first + neighbours[voice + lane];
-      const std::size_t end = first[1];
-      Floats best = Floats{} + kNever;
-      for (std::size_t p = first[0]; p < end; p += kLanes) {
-        const Floats x = load(pairs.step_x_px + p) - step.x_px;
-        const Floats y = load(pairs.step_y_px + p) - step.y_px;
-        const Floats here = step.per_px2 * (x * x + y * y) + load(pairs.likeness + p);
-        best = larger(best, before(p, end) ? here : Floats{} + kNever);
-      }
-      best = larger(best, __builtin_shufflevector(best, best, 4, 5, 6, 7, 0, 1, 2, 3));
-      best = larger(best, __builtin_shufflevector(best, best, 2, 3, 0, 1, 6, 7, 4, 5));
-      best = larger(best, __builtin_shufflevector(best, best, 1, 0, 3, 2, 5, 4, 7, 6));
-      agrees[lane] = best[0];
+void votes(const PairColumns& pairs, const int* neighbours, const float* weights,
+           const float* ln_clutter, std::size_t count, const AskedSteps& asked, float* sums) {
+  const Floats step_x = load(asked.x_px), step_y = load(asked.y_px);
+  const Floats per_px2 = load(asked.per_px2), ln_spread = load(asked.ln_spread);
+  Floats votes[kLanes] = {};  // several sums, so that an addition need not wait for the last
+  for (std::size_t voice = 0; voice < count; ++voice) {
+    const std::uint32_t* const first = pairs.first + neighbours[voice];
+    const std::size_t end = first[1];
+    Floats agrees = Floats{} - 1e30F;  // ln V, before what is common to all pairs of a corner
+    for (std::size_t p = first[0]; p < end; ++p) {
+      const Floats x = pairs.step_x_px[p] - step_x, y = pairs.step_y_px[p] - step_y;
+      agrees = larger(agrees, per_px2 * (x * x + y * y) + pairs.likeness[p]);
     }
-    const Floats ln_ratio = load(agrees) - step.ln_spread - load(ln_clutter + voice);
-    const Floats vote = load(weights + voice) * (softplus(ln_ratio) - 0.6931471805599453F);
-    sum += before(voice, count) ? vote : Floats{};
+    votes[voice % kLanes] +=
+        weights[voice] * (softplus(agrees - ln_spread - ln_clutter[voice]) - 0.6931471805599453F);
   }
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+  store(((votes[0] + votes[1]) + (votes[2] + votes[3])) +
+            ((votes[4] + votes[5]) + (votes[6] + votes[7])),
+        sums);
 }
 
 void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,
@@ -304,15 +295,15 @@ void normal_sums(const ResidualColumns& residuals, std::size_t count, const doub
   }
 }
 
-std::size_t alike(const Signature& one, const Signature* many, std::size_t count, int most_bits,
-                  Alike* found) {
+std::size_t alike(const Signature& one, const Signature* many, const int* places, std::size_t count,
+                  int most_bits, Alike* found) {
   const auto* a = reinterpret_cast<const std::uint64_t*>(&one);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto* b = reinterpret_cast<const std::uint64_t*>(many + i);
+    const auto* b = reinterpret_cast<const std::uint64_t*>(many + places[i]);
     const int bits = __builtin_popcountll(a[0] ^ b[0]) + __builtin_popcountll(a[1] ^ b[1]) +
                      __builtin_popcountll(a[2] ^ b[2]) + __builtin_popcountll(a[3] ^ b[3]);
-    found[kept] = {static_cast<int>(i), bits};
+    found[kept] = {places[i], bits};
     kept += bits <= most_bits;
   }
   return kept;

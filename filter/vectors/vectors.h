@@ -46,11 +46,11 @@ struct PairColumns {
   const std::uint32_t* first;  ///< of each corner's pairs, and the end
 };
 
-/// A step for which neighbouring corners vote (MODEL.md (7)).
-struct AskedStep {
-  float x_px, y_px;
-  float per_px2;    ///< factor of the squared difference of two steps in the logarithm of V
-  float ln_spread;  ///< subtracted from that logarithm
+/// Steps for which neighbouring corners vote (MODEL.md (7)).
+struct AskedSteps {
+  float x_px[kLanes], y_px[kLanes];
+  float per_px2[kLanes];    ///< factor of the squared difference of two steps in the logarithm of V
+  float ln_spread[kLanes];  ///< subtracted from that logarithm
 };
 
 /// Columns of residuals of static tracks (MODEL.md (8)), padded by residuals of weight 0.
@@ -91,19 +91,19 @@ struct Loops {
   void (*exponentials)(float* values, std::size_t count, float factor);
   /// tanh(m/2)
   void (*half_tanh)(const float* m, float* result, std::size_t count);
-  /// Sum of the votes of neighbours for a step: of the weight times ln((1 + V) / 2).
-  /// \param neighbours corners. \param weights, ln_clutter of each; padded.
-  float (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
-                 const float* ln_clutter, std::size_t count, const AskedStep& step);
+  /// Sums of the votes of neighbours for each step: of the weight times ln((1 + V) / 2).
+  /// \param neighbours corners. \param weights, ln_clutter of each.
+  void (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
+                const float* ln_clutter, std::size_t count, const AskedSteps& asked, float* sums);
   /// Sums of the equations of (9) for the turn and the velocity.
   /// \param fix present estimate.
   /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
   void (*normal_sums)(const ResidualColumns& residuals, std::size_t count, const double* fix,
                       const double* root, NormalSums& sums);
-  /// Finds the signatures of a list that are at most `most_bits` from one.
+  /// Finds the signatures at some places of a list that are at most `most_bits` from one.
   /// \param found room for all.
-  std::size_t (*alike)(const Signature& one, const Signature* many, std::size_t count,
-                       int most_bits, Alike* found);
+  std::size_t (*alike)(const Signature& one, const Signature* many, const int* places,
+                       std::size_t count, int most_bits, Alike* found);
 };
 
 /// The loops by this machine's instructions.
