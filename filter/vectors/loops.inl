@@ -295,11 +295,49 @@ void normal_sums(const ResidualColumns& residuals, std::size_t count, const doub
   }
 }
 
+#ifdef __AVX2__
+/// The numbers of bits that differ between a signature and four others.
+inline __attribute__((always_inline)) __m128i bits_apart(const Signature& one,
+                                                         const Signature* many, const int* places) {
+  const __m256i bits_of =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+  const __m256i low = _mm256_set1_epi8(15), a = _mm256_loadu_si256((const __m256i*)&one);
+  __m256i sums[4];  // of the bits of each quarter
+  for (int i = 0; i < 4; ++i) {
+    const __m256i unlike =
+        _mm256_xor_si256(a, _mm256_loadu_si256((const __m256i*)&many[places[i]]));
+    const __m256i high = _mm256_srli_epi16(unlike, 4);
+    sums[i] =
+        _mm256_sad_epu8(_mm256_add_epi8(_mm256_shuffle_epi8(bits_of, _mm256_and_si256(unlike, low)),
+                                        _mm256_shuffle_epi8(bits_of, _mm256_and_si256(high, low))),
+                        _mm256_setzero_si256());
+  }
+  const __m256i quarters = _mm256_packs_epi32(_mm256_packs_epi32(sums[0], sums[1]),
+                                              _mm256_packs_epi32(sums[2], sums[3]));
+  const __m256i halves = _mm256_madd_epi16(quarters, _mm256_set1_epi16(1));
+  return _mm_add_epi32(_mm256_castsi256_si128(halves), _mm256_extracti128_si256(halves, 1));
+}
+#endif
+
 std::size_t alike(const Signature& one, const Signature* many, const int* places, std::size_t count,
                   int most_bits, Alike* found) {
   const auto* a = reinterpret_cast<const std::uint64_t*>(&one);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  std::size_t kept = 0, i = 0;
+#ifdef __AVX2__
+  for (; i + 4 <= count; i += 4) {
+    const __m128i apart = bits_apart(one, many, places + i);
+    const __m128i near = _mm_cmpgt_epi32(_mm_set1_epi32(most_bits + 1), apart);
+    auto set = static_cast<unsigned>(_mm_movemask_ps((__m128)near));
+    if (set == 0) continue;
+    int bits[4];
+    _mm_storeu_si128((__m128i*)bits, apart);
+    for (; set != 0; set &= set - 1) {
+      const int lane = __builtin_ctz(set);
+      found[kept++] = {places[i + lane], bits[lane]};
+    }
+  }
+#endif
+  for (; i < count; ++i) {
     const auto* b = reinterpret_cast<const std::uint64_t*>(many + places[i]);
     const int bits = __builtin_popcountll(a[0] ^ b[0]) + __builtin_popcountll(a[1] ^ b[1]) +
                      __builtin_popcountll(a[2] ^ b[2]) + __builtin_popcountll(a[3] ^ b[3]);
