@@ -186,11 +186,6 @@ void Association::find_pairs(const Chi& chi) {
   }
 }
 
-/// Variance on an axis of the difference between the steps of neighbours on one body.
-double Association::step_variance_px2(double noise2_px2, double step2_px2) const {
-  return 4 * noise2_px2 + parameters_.step_share * parameters_.step_share * step2_px2;
-}
-
 /// Sets the weight of each voice.
 void Association::weigh_voices(const Neighbourhood& around) {
   const double near = parameters_.neighbour_reach_px;
@@ -210,7 +205,7 @@ void Association::weigh_voices(const Neighbourhood& around) {
 /// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
 /// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
 Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                                          double noise2_px2, double ln_spread) const {
+                                          const PairColumns& pairs, double ln_spread) const {
   const double far_px = kFar * parameters_.neighbour_reach_px, far2_px2 = far_px * far_px;
   const std::size_t first_voice = corner * voices.size();
   std::size_t count = 0;
@@ -219,25 +214,13 @@ Association::Match Association::best_pair(std::size_t corner, std::span<const Ne
     most += voice_weights_[first_voice + count] *
             std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_spread);
   }
-  const PairColumns pairs = {step_x_.data(), step_y_.data(), likeness_of_.data(), first_.data()};
   Match best{0, static_cast<int>(corner), -1, 0};
-  AskedSteps asked{};
   std::array<float, kLanes> votes;
-  for (std::size_t p = first_[corner]; p < first_[corner + 1]; p += kLanes) {
-    std::size_t steps = 0;
-    for (; steps < std::min(kLanes, first_[corner + 1] - p); ++steps) {
-      if (pairs_[p + steps].weight + most < best.weight) break;
-      const float x = step_x_[p + steps], y = step_y_[p + steps];
-      const double variance = step_variance_px2(noise2_px2, x * x + y * y);
-      asked.x_px[steps] = x;
-      asked.y_px[steps] = y;
-      asked.per_px2[steps] = static_cast<float>(-0.5 / variance);
-      asked.ln_spread[steps] = static_cast<float>(std::log(2 * kPi * variance));
-    }
-    if (steps == 0) break;
+  for (std::size_t p = first_[corner], end = first_[corner + 1]; p < end; p += kLanes) {
+    if (pairs_[p].weight + most < best.weight) break;
     loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
-                  voice_clutter_.data() + first_voice, count, asked, votes.data());
-    for (std::size_t step = 0; step < steps; ++step) {
+                  voice_clutter_.data() + first_voice, count, p, votes.data());
+    for (std::size_t step = 0; step < std::min(kLanes, end - p); ++step) {
       const Pair& pair = pairs_[p + step];
       const double weight = pair.weight + votes[step];
       if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
@@ -258,12 +241,18 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   seek(predicted, dt_s);
   find_pairs(chi);
   weigh_voices(around);
+  const PairColumns pairs = {step_x_.data(),
+                             step_y_.data(),
+                             likeness_of_.data(),
+                             first_.data(),
+                             static_cast<float>(4 * noise2_px2),
+                             static_cast<float>(parameters_.step_share * parameters_.step_share)};
   // The least that a vote can spread: without a step.
-  const double ln_spread = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
+  const double ln_spread = std::log(2 * kPi * 4 * noise2_px2);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
-    const Match best = best_pair(c, around.of(c), noise2_px2, ln_spread);
+    const Match best = best_pair(c, around.of(c), pairs, ln_spread);
     if (best.track >= 0) matches_.push_back(best);
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {

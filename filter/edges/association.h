@@ -23,6 +23,7 @@
 #include "filter/edges/track.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 
@@ -102,9 +103,8 @@ class Association {
   void find_pairs(const Chi& chi);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
-  double step_variance_px2(double noise2_px2, double step2_px2) const;
   void weigh_voices(const Neighbourhood& around);
-  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, double noise2_px2,
+  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, const PairColumns& pairs,
                   double ln_spread) const;
 
   EdgeParameters parameters_;

@@ -58,6 +58,23 @@ inline __attribute__((always_inline)) std::size_t append(const Ints& kept, const
 
 constexpr Ints kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 
+/// Whether any lane is set.
+inline __attribute__((always_inline)) bool any(const Ints& lanes) {
+#ifdef __AVX2__
+  return _mm256_movemask_ps((__m256)lanes) != 0;
+#else
+  bool found = false;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) found |= lanes[lane] != 0;
+  return found;
+#endif
+}
+
+/// The sum of the lanes, in an order that is the same on any machine.
+inline __attribute__((always_inline)) float total(const Floats& lanes) {
+  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+         ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+}
+
 /// The lanes that lie before the end of a range.
 inline __attribute__((always_inline)) Ints before(std::size_t first, std::size_t last) {
   return kLane < static_cast<std::int32_t>(last - first);
@@ -147,7 +164,7 @@ std::size_t count_within(const float* x_px, const float* y_px, std::size_t first
 }
 
 std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, std::size_t first,
-                 std::size_t last, int* found, float* exponents) {
+                 std::size_t last, std::uint32_t* starts, float* weights) {
   const float x = nodes.x_px[node], y = nodes.y_px[node];
   const float step_x = nodes.step_x_px[node], step_y = nodes.step_y_px[node];
   const float reach2 = nodes.reach2_px2[node], length2 = nodes.length2_px2[node];
@@ -166,9 +183,26 @@ std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, st
                                             (lengths2 > length2 ? lengths2 : Floats{} + length2));
     const Ints kept = (apart2 <= nodes.far2 * (reaches2 < reach2 ? reaches2 : Floats{} + reach2)) &
                       (exponent < nodes.far2) & before(first, last);
-    count += append(kept, exponent, first, found + count, exponents + count);
+    if (!any(kept)) continue;
+    starts[count] = static_cast<std::uint32_t>(first);
+    store(kept ? exp_of(-0.5F * exponent) : Floats{}, weights + kLanes * count++);
   }
   return count;
+}
+
+void tied_sums(const Ties& ties, const float* values, std::size_t count, float* sums) {
+  for (std::size_t i = 0; i < count; i += kLanes) store(Floats{}, sums + i);
+  for (std::size_t node = 0; node < count; ++node) {
+    const float own = values[node];
+    Floats sum = {};
+    for (std::size_t block = ties.first[node]; block < ties.first[node + 1]; ++block) {
+      const Floats weights = load(ties.weights + kLanes * block);
+      const std::size_t start = ties.starts[block];
+      sum += weights * load(values + start);
+      store(load(sums + start) + weights * own, sums + start);
+    }
+    sums[node] += total(sum);
+  }
 }
 
 std::size_t links(const LinkColumns& nodes, std::size_t node, float radius2_px2, std::size_t first,
@@ -202,10 +236,8 @@ void half_tanh(const float* m, float* result, std::size_t count) {
   }
 }
 
-/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
-inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
-  // ln(1 + t) for 0 < t <= 1 by s = t / (2 + t): 2 (s + s^3/3 + s^5/5 + ...), |s| <= 1/3.
-  const Floats t = exp_of(x < 0.0F ? x : -x);
+/// ln(1 + t) for 0 <= t <= 1, by s = t / (2 + t) <= 1/3: 2 (s + s^3/3 + s^5/5 + ...).
+inline __attribute__((always_inline)) Floats log1p_of(const Floats& t) {
   const Floats s = t / (2.0F + t), s2 = s * s;
   Floats sum = s2 * (1.0F / 15) + 1.0F / 13;
   sum = sum * s2 + 1.0F / 11;
@@ -214,13 +246,26 @@ inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
   sum = sum * s2 + 1.0F / 5;
   sum = sum * s2 + 1.0F / 3;
   sum = sum * s2 + 1.0F;
-  return (x > 0.0F ? x : Floats{}) + 2.0F * s * sum;
+  return 2.0F * s * sum;
+}
+
+/// ln x of normal numbers above 0.
+inline __attribute__((always_inline)) Floats log_of(const Floats& x) {
+  const Floats exponent = __builtin_convertvector(((Ints)x >> 23) - 127, Floats);
+  const Floats mantissa = (Floats)(((Ints)x & 0x7fffff) | 0x3f800000);  // in [1, 2)
+  return exponent * 0.6931471805599453F + log1p_of(mantissa - 1.0F);
+}
+
+/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
+inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
+  return (x > 0.0F ? x : Floats{}) + log1p_of(exp_of(x < 0.0F ? x : -x));
 }
 
 void votes(const PairColumns& pairs, const int* neighbours, const float* weights,
-           const float* ln_clutter, std::size_t count, const AskedSteps& asked, float* sums) {
-  const Floats step_x = load(asked.x_px), step_y = load(asked.y_px);
-  const Floats per_px2 = load(asked.per_px2), ln_spread = load(asked.ln_spread);
+           const float* ln_clutter, std::size_t count, std::size_t asked, float* sums) {
+  const Floats step_x = load(pairs.step_x_px + asked), step_y = load(pairs.step_y_px + asked);
+  const Floats variance = pairs.variance_px2 + pairs.share2 * (step_x * step_x + step_y * step_y);
+  const Floats per_px2 = -0.5F / variance, ln_spread = log_of(6.283185307179586F * variance);
   Floats votes[kLanes] = {};  // several sums, so that an addition need not wait for the last
   for (std::size_t voice = 0; voice < count; ++voice) {
     const std::uint32_t* const first = pairs.first + neighbours[voice];
@@ -347,7 +392,7 @@ std::size_t alike(const Signature& one, const Signature* many, const int* places
   return kept;
 }
 
-constexpr Loops kLoops = {within,    count_within, ties,        links, exponentials,
-                          half_tanh, votes,        normal_sums, alike};
+constexpr Loops kLoops = {within,       count_within, ties,  tied_sums,   links,
+                          exponentials, half_tanh,    votes, normal_sums, alike};
 
 }  // namespace

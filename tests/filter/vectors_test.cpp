@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -93,32 +94,68 @@ TEST(Loops, VotesAreThoseOfTheFormula) {
   const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
   const std::vector<float> weights = column(random, voices.size(), 0, 1);
   const std::vector<float> clutter = column(random, voices.size(), -7, -3);
-  AskedSteps asked{};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    asked.x_px[lane] = static_cast<float>(lane) - 4;
-    asked.y_px[lane] = 1;
-    asked.per_px2[lane] = -0.5F / static_cast<float>(lane + 1);
-    asked.ln_spread[lane] = static_cast<float>(lane);
-  }
+  constexpr float kVariance = 0.5, kShare2 = 0.04F;
+  constexpr std::size_t kAsked = 5;
   for (const Loops* way : kWays) {
     std::vector<float> sums(kLanes);
-    way->votes({x.data(), y.data(), likeness.data(), first.data()}, voices.data(), weights.data(),
-               clutter.data(), voices.size(), asked, sums.data());
+    way->votes({x.data(), y.data(), likeness.data(), first.data(), kVariance, kShare2},
+               voices.data(), weights.data(), clutter.data(), voices.size(), kAsked, sums.data());
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double step_x = x[kAsked + lane], step_y = y[kAsked + lane];
+      const double variance = kVariance + kShare2 * (step_x * step_x + step_y * step_y);
       double expected = 0;
       for (std::size_t voice = 0; voice < voices.size(); ++voice) {
         double ratio = 0;
         for (auto p = first[voices[voice]]; p < first[voices[voice] + 1]; ++p) {
-          const double apart2 =
-              std::pow(x[p] - asked.x_px[lane], 2) + std::pow(y[p] - asked.y_px[lane], 2);
-          ratio = std::max(ratio, std::exp(likeness[p] + asked.per_px2[lane] * apart2 -
-                                           asked.ln_spread[lane] - clutter[voice]));
+          const double apart2 = std::pow(x[p] - step_x, 2) + std::pow(y[p] - step_y, 2);
+          ratio = std::max(ratio, std::exp(likeness[p] - apart2 / (2 * variance) - clutter[voice]) /
+                                      (2 * std::numbers::pi * variance));
         }
         expected += weights[voice] * std::log((1 + ratio) / 2);
       }
       // Single precision, of terms of up to 20.
       EXPECT_NEAR(sums[lane], expected, 2e-5) << lane;
     }
+  }
+}
+
+TEST(Loops, SumOverTheTiesOfEachNode) {
+  Random random(4);
+  constexpr std::size_t kCount = 43;
+  const std::vector<float> x = column(random, kCount, 0, 90), y = column(random, kCount, 0, 90);
+  const std::vector<float> step = column(random, kCount, -2, 2), no_step(kCount + kLanes);
+  std::vector<float> reach2 = column(random, kCount, 100, 200);
+  reach2[5] = -1;  // has no ties
+  const std::vector<float> variance = column(random, kCount, 0.1, 1);
+  const TieColumns nodes = {x.data(),      y.data(),       step.data(),     no_step.data(),
+                            reach2.data(), no_step.data(), variance.data(), 9};
+  const std::vector<float> values = column(random, kCount, -1, 1);
+  std::vector<double> expected(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t j = 0; j < kCount; ++j) {
+      const double apart2 = std::pow(x[i] - x[j], 2) + std::pow(y[i] - y[j], 2);
+      if (i == j || apart2 > 9 * std::min(reach2[i], reach2[j])) continue;
+      const double exponent = apart2 / (reach2[i] + reach2[j]) +
+                              std::pow(step[i] - step[j], 2) / (variance[i] + variance[j] + 0.3);
+      if (exponent < 9) expected[i] += std::exp(-0.5 * exponent) * values[j];
+    }
+  }
+  EXPECT_EQ(expected[5], 0);
+  for (const Loops* way : kWays) {
+    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> starts(kCount * kCount);
+    std::vector<float> weights(kLanes * starts.size()), sums(kCount + kLanes);
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      first.push_back(end);
+      if (reach2[i] < 0) continue;
+      end += way->ties(nodes, i, 0.3F, i + 1, kCount, &starts[end], &weights[kLanes * end]);
+    }
+    first.push_back(end);
+    way->tied_sums({first.data(), starts.data(), weights.data()}, values.data(), kCount,
+                   sums.data());
+    // Single precision, of sums of up to 20.
+    for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(sums[i], expected[i], 1e-5) << i;
   }
 }
 
@@ -135,17 +172,11 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
                             reach2.data(), length2.data(), variance.data(), 9};
   const LinkColumns edges = {x.data(), y.data(), reach2.data(), step_x.data(), variance.data(), 9};
   const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
-  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data()};
+  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data(), 1, 0.04F};
   const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
-  std::vector<std::pair<std::vector<int>, std::vector<float>>> tied, linked;
+  std::vector<std::pair<std::vector<std::uint32_t>, std::vector<float>>> tied;
+  std::vector<std::pair<std::vector<int>, std::vector<float>>> linked;
   std::vector<std::vector<float>> powers, tanhs, votes;
-  AskedSteps asked{};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    asked.x_px[lane] = static_cast<float>(lane);
-    asked.y_px[lane] = -2;
-    asked.per_px2[lane] = -0.1F;
-    asked.ln_spread[lane] = 3;
-  }
   std::vector<std::vector<double>> columns(11);
   for (std::vector<double>& column : columns) {
     for (std::size_t i = 0; i < kCount + kLanes; ++i) column.push_back(random.uniform(0.1, 1));
@@ -166,16 +197,19 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
       hits.second.resize(count);
       return hits;
     };
-    tied.push_back(found([&](int* places, float* exponents) {
-      return way->ties(nodes, 7, 0.3F, 8, kCount, places, exponents);
-    }));
+    std::vector<std::uint32_t> starts(kCount);
+    std::vector<float> weights(kLanes * kCount);
+    const std::size_t blocks = way->ties(nodes, 7, 0.3F, 8, kCount, starts.data(), weights.data());
+    starts.resize(blocks);
+    weights.resize(kLanes * blocks);
+    tied.emplace_back(starts, weights);
     linked.push_back(found([&](int* places, float* distances2) {
       return way->links(edges, 7, 900, 8, kCount, places, distances2);
     }));
     EXPECT_GT(tied.back().first.size(), 5u);
     EXPECT_GT(linked.back().first.size(), 0u);
     votes.emplace_back(kLanes);
-    way->votes(pairs, voices.data(), length2.data(), variance.data(), voices.size(), asked,
+    way->votes(pairs, voices.data(), length2.data(), variance.data(), voices.size(), 13,
                votes.back().data());
     powers.push_back(step_x);
     way->exponentials(powers.back().data(), kCount, 3);
