@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
@@ -13,6 +14,17 @@ namespace {
 
 /// ln of the least ratio that counts; anything less is lost in rounding.
 const double kNone = std::log(std::numeric_limits<float>::epsilon());
+
+/// A normal density times a probability.
+ExpectedTrack::Share share_of(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
+  const Eigen::Matrix2f precision = covariance.inverse().cast<float>();
+  return {static_cast<float>(at_px.x()),
+          static_cast<float>(at_px.y()),
+          precision(0, 0),
+          precision(0, 1),
+          precision(1, 1),
+          static_cast<float>(std::log(share / (2 * kPi * std::sqrt(covariance.determinant()))))};
+}
 
 }  // namespace
 
@@ -38,12 +50,6 @@ double Association::clutter_ppx2(std::size_t corner) const {
   return crowd_[corner] / (kPi * near * near);
 }
 
-void Association::Share::set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
-  place_px = at_px;
-  precision = covariance.inverse();
-  ln_most = std::log(share / (2 * kPi * std::sqrt(covariance.determinant())));
-}
-
 /// Density of each track in this frame: a static or a moving point, weighted by its belief, or
 /// anywhere within reach.
 void Association::expect(std::span<const Track> predicted, double noise2_px2, double dt_s) {
@@ -51,19 +57,22 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   expected_.clear();
   for (const Track& track : predicted) {
     const double moves = chance(track.belief);
-    Expected& next = expected_.emplace_back();
-    next.track_px = track.place_px;
-    next.anywhere_ppx2 = wrong * anywhere;
-    next.still.set(track.as_static.place_px, track.as_static.spread(noise2_px2),
-                   (1 - wrong) * (1 - moves));
+    double anywhere_ppx2 = wrong * anywhere;
+    const ExpectedTrack::Share still = share_of(
+        track.as_static.place_px, track.as_static.spread(noise2_px2), (1 - wrong) * (1 - moves));
+    ExpectedTrack::Share moving = still;
     if (track.has_motion()) {
-      next.moving.set(track.as_moving.place_px,
-                      (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
-                      (1 - wrong) * moves);
+      moving =
+          share_of(track.as_moving.place_px,
+                   (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
+                   (1 - wrong) * moves);
     } else {
-      next.anywhere_ppx2 += (1 - wrong) * moves * anywhere;
+      moving.ln_most = -std::numeric_limits<float>::infinity();
+      anywhere_ppx2 += (1 - wrong) * moves * anywhere;
     }
-    next.ln_anywhere = std::log(next.anywhere_ppx2);
+    const Eigen::Vector2f place_px = track.place_px.cast<float>();
+    expected_.push_back(
+        {place_px.x(), place_px.y(), still, moving, static_cast<float>(anywhere_ppx2)});
   }
 }
 
@@ -120,39 +129,38 @@ void Association::seek(std::span<const Track> predicted, double dt_s) {
 ///   which few bits differ.
 bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought) {
   bool is_sure = false;
-  sought.grid.visit_runs(x_px, sought.reach_px, [&](std::size_t first, std::size_t last) {
-    std::size_t count = last - first;
-    if (signature != nullptr) {
-      count =
-          loops().alike(*signature, &sought.signatures[first], count, most_bits_, alike_.data());
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = first + (signature != nullptr ? alike_[i].place : i);
-      if (sought.grid.distance2(place, x_px) > sought.reach_px * sought.reach_px) continue;
-      const int t = sought.tracks[sought.grid.index_at(place)];
-      const Expected& track = expected_[t];
-      // Static points are not followed at steps that are too large for movers, either.
-      if ((track.track_px - x_px).squaredNorm() > all_.reach_px * all_.reach_px) continue;
-      const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
-      const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
-      // Far from both predictions only the uniform density is left.
-      const double ln_density =
-          std::max(still, moving) < kNone + track.ln_anywhere
-              ? track.ln_anywhere
-              : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
-      // Half as far as a pair may be, in deviations and in bits.
-      const double ln_off = std::max(still - track.still.ln_most, moving - track.moving.ln_most);
-      is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
-                            ln_off > -0.5 * (0.5 * kFar) * (0.5 * kFar));
-      offer({ln_density + likeness, t, static_cast<float>(likeness)});
-    }
-  });
+  std::size_t count = sought.grid.find_within(x_px, sought.reach_px, near_);
+  if (signature != nullptr) {
+    count = loops().alike(*signature, sought.signatures.data(), near_.places.data(), count,
+                          most_bits_, alike_.data());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int place = signature != nullptr ? alike_[i].place : near_.places[i];
+    which_[i] = sought.tracks[sought.grid.index_at(static_cast<std::size_t>(place))];
+  }
+  const Eigen::Vector2f x = x_px.cast<float>();
+  loops().densities(expected_.data(), which_.data(), count, x.x(), x.y(), ln_density_.data(),
+                    ln_off_.data());
+  const double reach2_px2 = all_.reach_px * all_.reach_px;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ExpectedTrack& track = expected_[which_[i]];
+    // Static points are not followed at steps that are too large for movers, either.
+    if ((Eigen::Vector2f(track.x_px, track.y_px) - x).squaredNorm() > reach2_px2) continue;
+    const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
+    // Half as far as a pair may be, in deviations and in bits.
+    is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
+                          ln_off_[i] > -0.5 * (0.5 * kFar) * (0.5 * kFar));
+    offer({ln_density_[i] + likeness, which_[i], static_cast<float>(likeness)});
+  }
   return is_sure;
 }
 
 /// Finds the pairs of all corners.
 void Association::find_pairs(const Chi& chi) {
   refill(alike_, expected_.size());
+  refill_column(which_, expected_.size());
+  refill_column(ln_density_, expected_.size());
+  refill_column(ln_off_, expected_.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
@@ -179,19 +187,13 @@ void Association::find_pairs(const Chi& chi) {
     for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
-      const Vec2 step = x - expected_[pair.track].track_px;
-      step_x_[p] = static_cast<float>(step.x());
-      step_y_[p] = static_cast<float>(step.y());
+      step_x_[p] = static_cast<float>(x.x()) - expected_[pair.track].x_px;
+      step_y_[p] = static_cast<float>(x.y()) - expected_[pair.track].y_px;
       likeness_of_[p] = pair.likeness;
       ln_likest_.back() = std::max(ln_likest_.back(), pair.likeness - ln_clutter);
     }
     first_.push_back(static_cast<std::uint32_t>(pairs_.size()));
   }
-}
-
-/// Variance on an axis of the difference between the steps of neighbours on one body.
-double Association::step_variance_px2(double noise2_px2, double step2_px2) const {
-  return 4 * noise2_px2 + parameters_.step_share * parameters_.step_share * step2_px2;
 }
 
 /// Sets the weight of each voice.
@@ -213,31 +215,27 @@ void Association::weigh_voices(const Neighbourhood& around) {
 /// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
 /// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
 Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                                          double noise2_px2) const {
-  const double far2_px2 = std::pow(kFar * parameters_.neighbour_reach_px, 2);
+                                          const PairColumns& pairs, double ln_spread) const {
+  const double far_px = kFar * parameters_.neighbour_reach_px, far2_px2 = far_px * far_px;
   const std::size_t first_voice = corner * voices.size();
-  // The least that a vote can spread: without a step.
-  const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
   std::size_t count = 0;
   double most = 0;  // that the voices can add to any pair
   for (; count < voices.size() && voices[count].distance2 <= far2_px2; ++count) {
     most += voice_weights_[first_voice + count] *
-            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_least);
+            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_spread);
   }
-  const PairColumns pairs = {step_x_.data(), step_y_.data(), likeness_of_.data(), first_.data()};
   Match best{0, static_cast<int>(corner), -1, 0};
-  for (std::size_t p = first_[corner]; p < first_[corner + 1]; ++p) {
+  std::array<float, kLanes> votes;
+  for (std::size_t p = first_[corner], end = first_[corner + 1]; p < end; p += kLanes) {
     if (pairs_[p].weight + most < best.weight) break;
-    const float x = step_x_[p], y = step_y_[p];
-    const double variance = step_variance_px2(noise2_px2, x * x + y * y);
-    const AskedStep step = {x, y, static_cast<float>(-0.5 / variance),
-                            static_cast<float>(std::log(2 * kPi * variance))};
-    const double weight =
-        pairs_[p].weight + loops().votes(pairs, voices_.data() + first_voice,
-                                         voice_weights_.data() + first_voice,
-                                         voice_clutter_.data() + first_voice, count, step);
-    if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
-      best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};
+    loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
+                  voice_clutter_.data() + first_voice, count, p, votes.data());
+    for (std::size_t step = 0; step < std::min(kLanes, end - p); ++step) {
+      const Pair& pair = pairs_[p + step];
+      const double weight = pair.weight + votes[step];
+      if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
+        best = {weight, best.corner, pair.track, pair.likeness};
+      }
     }
   }
   return best;
@@ -253,10 +251,18 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   seek(predicted, dt_s);
   find_pairs(chi);
   weigh_voices(around);
+  const PairColumns pairs = {step_x_.data(),
+                             step_y_.data(),
+                             likeness_of_.data(),
+                             first_.data(),
+                             static_cast<float>(4 * noise2_px2),
+                             static_cast<float>(parameters_.step_share * parameters_.step_share)};
+  // The least that a vote can spread: without a step.
+  const double ln_spread = std::log(2 * kPi * 4 * noise2_px2);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
-    const Match best = best_pair(c, around.of(c), noise2_px2);
+    const Match best = best_pair(c, around.of(c), pairs, ln_spread);
     if (best.track >= 0) matches_.push_back(best);
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {

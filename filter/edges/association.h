@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,6 +22,7 @@
 #include "filter/edges/track.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 
@@ -64,26 +64,6 @@ class Association {
     double signature;
   };
 
-  /// A normal density times a probability; 0 if not set.
-  struct Share {
-    Vec2 place_px = Vec2::Zero();
-    Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
-    double ln_most = -std::numeric_limits<double>::infinity();
-
-    void set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share);
-    double ln(const Vec2& x_px) const {
-      const Vec2 off = x_px - place_px;
-      return ln_most - 0.5 * off.dot(precision * off);
-    }
-  };
-
-  /// Density of a track's place in this frame.
-  struct Expected {
-    Vec2 track_px;
-    Share still, moving;
-    double anywhere_ppx2, ln_anywhere;
-  };
-
   /// Tracks that are looked for within the same distance.
   struct Sought {
     PointGrid grid;
@@ -102,21 +82,24 @@ class Association {
   void find_pairs(const Chi& chi);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
-  double step_variance_px2(double noise2_px2, double step2_px2) const;
   void weigh_voices(const Neighbourhood& around);
-  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, double noise2_px2) const;
+  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, const PairColumns& pairs,
+                  double ln_spread) const;
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
   int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  Sought followed_;                   // tracks with three sightings, near their predictions
-  Sought all_;                        // all tracks, about their rotated places
-  std::vector<Alike> alike_;          // to a corner's signature
-  std::vector<Expected> expected_;    // of each track
-  std::vector<Pair> pairs_;           // by corner
-  std::vector<std::uint32_t> first_;  // index of each corner's first pair
+  Sought followed_;                         // tracks with three sightings, near their predictions
+  Sought all_;                              // all tracks, about their rotated places
+  PointGrid::Found near_;                   // to a corner
+  std::vector<Alike> alike_;                // of these, to its signature
+  std::vector<int> which_;                  // the tracks of these
+  std::vector<float> ln_density_, ln_off_;  // `Loops::densities` of these
+  std::vector<ExpectedTrack> expected_;     // of each track
+  std::vector<Pair> pairs_;                 // by corner
+  std::vector<std::uint32_t> first_;        // index of each corner's first pair
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<int> crowd_;                            // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner

@@ -18,7 +18,7 @@ const double kBeyond = std::exp(-0.5 * kFar * kFar);
 /// Puts the nodes into columns.
 void Coupling::place(std::span<const Node> nodes, const Neighbourhood& around) {
   for (auto* column : {&step_x_px_, &step_y_px_, &reach2_px2_, &length2_px2_, &variance_px2_,
-                       &log_odds_, &tanh_, &sums_}) {
+                       &log_odds_, &tanh_, &sums_, &pulls_}) {
     refill_column(*column, nodes.size());
   }
   refill(reach_px_, nodes.size());
@@ -49,16 +49,16 @@ void Coupling::tie(const PointGrid& grid, double noise2_px2) {
     first_.push_back(end);
     if (reach2_px2_[k] < 0) continue;
     grid.visit_runs_after(k, kFar * std::sqrt(reach2_px2_[k]), [&](auto first, auto last) {
-      if (weights_.size() < end + (last - first) + kLanes) {
-        weights_.resize(2 * (end + (last - first) + kLanes));
-        others_.resize(weights_.size());
+      const std::size_t most = end + (last - first) / kLanes + 1;
+      if (starts_.size() < most) {
+        starts_.resize(2 * most);
+        weights_.resize(kLanes * starts_.size());
       }
       end += loops().ties(nodes, k, static_cast<float>(noise2_px2), first, last,
-                          others_.data() + end, weights_.data() + end);
+                          starts_.data() + end, weights_.data() + kLanes * end);
     });
   }
   first_.push_back(end);
-  loops().exponentials(weights_.data(), end, -0.5F);
 }
 
 const std::vector<double>& Coupling::settle(std::span<const Node> nodes,
@@ -66,35 +66,17 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes,
   place(nodes, around);
   tie(around.grid(), noise2_px2);
   const std::size_t count = nodes.size();
-  // Calls `add(other, weight)` for each tie of a node.
-  const auto visit_ties = [&](std::size_t k, auto&& add) {
-    for (std::size_t t = first_[k]; t < first_[k + 1]; ++t) {
-      add(static_cast<std::size_t>(others_[t]), weights_[t]);
-    }
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    float sum = 0;
-    visit_ties(k, [&](std::size_t other, float weight) {
-      sum += weight;
-      sums_[other] += weight;
-    });
-    sums_[k] += sum;
-  }
+  const Ties ties = {first_.data(), starts_.data(), weights_.data()};
+  std::fill_n(tanh_.begin(), count, 1.0F);
+  loops().tied_sums(ties, tanh_.data(), count, sums_.data());
   const auto beyond = static_cast<float>(kBeyond), most = static_cast<float>(parameters_.coupling);
   copy_over(log_odds_, coupled_);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     loops().half_tanh(coupled_.data(), tanh_.data(), count);
-    refill(pulls_, count);
+    loops().tied_sums(ties, tanh_.data(), count, pulls_.data());
     for (std::size_t k = 0; k < count; ++k) {
-      const float own = tanh_[k];
-      float pull = 0;
-      visit_ties(k, [&](std::size_t other, float weight) {
-        pull += weight * tanh_[other];
-        pulls_[other] += weight * own;
-      });
-      pull += pulls_[k];
       if (reach2_px2_[k] < 0) continue;
-      coupled_[k] = log_odds_[k] + most * (pull - beyond) / (sums_[k] + beyond);
+      coupled_[k] = log_odds_[k] + most * (pulls_[k] - beyond) / (sums_[k] + beyond);
     }
   }
   for (std::size_t k = 0; k < count; ++k) {

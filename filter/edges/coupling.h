@@ -9,6 +9,7 @@
 /// MODEL.md (18) and (19) call w k, and b k_0.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,9 +51,9 @@ class Coupling {
   std::vector<float> step_x_px_, step_y_px_, reach2_px2_, length2_px2_, variance_px2_;
   std::vector<float> log_odds_, coupled_, tanh_;
   std::vector<float> sums_, pulls_;  // sum of weights, weighted sum of tanh
-  // The ties of each node, from `first_` of its place on, to nodes after it.
+  // The columns of `Ties`.
   std::vector<std::size_t> first_;
-  std::vector<int> others_;
+  std::vector<std::uint32_t> starts_;
   std::vector<float> weights_;
 };
 

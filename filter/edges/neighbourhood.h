@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,7 +33,7 @@ class Neighbourhood {
       if (place > 0) radius_px = 1.2 * reach_px(grid_.index_at(place - 1));
       std::size_t near = grid_.find_within(x, radius_px, near_);
       for (; near <= count_; near = grid_.find_within(x, radius_px, near_)) radius_px *= 1.4;
-      keys_.assign(count_, std::numeric_limits<std::uint64_t>::max());
+      keys_.clear();
       for (std::size_t k = 0; k < near; ++k) {
         const auto other = static_cast<std::size_t>(near_.places[k]);
         if (other != place) insert(key(near_.distance2_px2[k], grid_.index_at(other)));
@@ -67,10 +66,14 @@ class Neighbourhood {
            static_cast<std::uint32_t>(index);
   }
 
-  /// Inserts a key into the sorted list, in place of its last one.
+  /// Inserts a key into the sorted list of the `count_` least ones.
   void insert(std::uint64_t key) {
+    if (keys_.size() < count_) {
+      keys_.push_back(key);
+    } else if (key >= keys_.back()) {
+      return;
+    }
     std::uint64_t* place = &keys_.back();
-    if (key >= *place) return;
     for (; place > keys_.data() && key < place[-1]; --place) *place = place[-1];
     *place = key;
   }

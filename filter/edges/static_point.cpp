@@ -91,11 +91,16 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   StaticPoint next;
   next.place_px = camera.centre_px + (h - w * shift) / nearing;
   next.inverse_depth_pm = w / nearing;
-  Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
-  F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing * turned);
-  F(2, 2) /= nearing * turned;
-  next.covariance = F * covariance * F.transpose();
-  next.covariance.topLeftCorner<2, 2>() += wrong_flow(next.place_px - rotated, ego_share);
+  // F C F^T, with the derivatives F = [a I, b; 0, c].
+  const double a = 1 / nearing, c = a * a / turned, C_ww = covariance(2, 2);
+  const Vec2 b = c * (h * d.z() - shift), C_xw = covariance.topRightCorner<2, 1>();
+  const Vec2 next_xw = a * C_xw + C_ww * b;
+  next.covariance.topLeftCorner<2, 2>() = a * a * covariance.topLeftCorner<2, 2>() +
+                                          a * C_xw * b.transpose() + b * next_xw.transpose() +
+                                          wrong_flow(next.place_px - rotated, ego_share);
+  next.covariance.topRightCorner<2, 1>() = c * next_xw;
+  next.covariance.bottomLeftCorner<1, 2>() = c * next_xw.transpose();
+  next.covariance(2, 2) = c * c * C_ww;
   return next;
 }
 

@@ -58,6 +58,23 @@ inline __attribute__((always_inline)) std::size_t append(const Ints& kept, const
 
 constexpr Ints kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 
+/// Whether any lane is set.
+inline __attribute__((always_inline)) bool any(const Ints& lanes) {
+#ifdef __AVX2__
+  return _mm256_movemask_ps((__m256)lanes) != 0;
+#else
+  bool found = false;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) found |= lanes[lane] != 0;
+  return found;
+#endif
+}
+
+/// The sum of the lanes, in an order that is the same on any machine.
+inline __attribute__((always_inline)) float total(const Floats& lanes) {
+  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+         ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+}
+
 /// The lanes that lie before the end of a range.
 inline __attribute__((always_inline)) Ints before(std::size_t first, std::size_t last) {
   return kLane < static_cast<std::int32_t>(last - first);
@@ -147,7 +164,7 @@ std::size_t count_within(const float* x_px, const float* y_px, std::size_t first
 }
 
 std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, std::size_t first,
-                 std::size_t last, int* found, float* exponents) {
+                 std::size_t last, std::uint32_t* starts, float* weights) {
   const float x = nodes.x_px[node], y = nodes.y_px[node];
   const float step_x = nodes.step_x_px[node], step_y = nodes.step_y_px[node];
   const float reach2 = nodes.reach2_px2[node], length2 = nodes.length2_px2[node];
@@ -166,9 +183,26 @@ std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, st
                                             (lengths2 > length2 ? lengths2 : Floats{} + length2));
     const Ints kept = (apart2 <= nodes.far2 * (reaches2 < reach2 ? reaches2 : Floats{} + reach2)) &
                       (exponent < nodes.far2) & before(first, last);
-    count += append(kept, exponent, first, found + count, exponents + count);
+    if (!any(kept)) continue;
+    starts[count] = static_cast<std::uint32_t>(first);
+    store(kept ? exp_of(-0.5F * exponent) : Floats{}, weights + kLanes * count++);
   }
   return count;
+}
+
+void tied_sums(const Ties& ties, const float* values, std::size_t count, float* sums) {
+  for (std::size_t i = 0; i < count; i += kLanes) store(Floats{}, sums + i);
+  for (std::size_t node = 0; node < count; ++node) {
+    const float own = values[node];
+    Floats sum = {};
+    for (std::size_t block = ties.first[node]; block < ties.first[node + 1]; ++block) {
+      const Floats weights = load(ties.weights + kLanes * block);
+      const std::size_t start = ties.starts[block];
+      sum += weights * load(values + start);
+      store(load(sums + start) + weights * own, sums + start);
+    }
+    sums[node] += total(sum);
+  }
 }
 
 std::size_t links(const LinkColumns& nodes, std::size_t node, float radius2_px2, std::size_t first,
@@ -202,10 +236,8 @@ void half_tanh(const float* m, float* result, std::size_t count) {
   }
 }
 
-/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
-inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
-  // ln(1 + t) for 0 < t <= 1 by s = t / (2 + t): 2 (s + s^3/3 + s^5/5 + ...), |s| <= 1/3.
-  const Floats t = exp_of(x < 0.0F ? x : -x);
+/// ln(1 + t) for 0 <= t <= 1, by s = t / (2 + t) <= 1/3: 2 (s + s^3/3 + s^5/5 + ...).
+inline __attribute__((always_inline)) Floats log1p_of(const Floats& t) {
   const Floats s = t / (2.0F + t), s2 = s * s;
   Floats sum = s2 * (1.0F / 15) + 1.0F / 13;
   sum = sum * s2 + 1.0F / 11;
@@ -214,37 +246,41 @@ inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
   sum = sum * s2 + 1.0F / 5;
   sum = sum * s2 + 1.0F / 3;
   sum = sum * s2 + 1.0F;
-  return (x > 0.0F ? x : Floats{}) + 2.0F * s * sum;
+  return 2.0F * s * sum;
 }
 
-float votes(const PairColumns& pairs, const int* neighbours, const float* weights,
-            const float* ln_clutter, std::size_t count, const AskedStep& step) {
-  constexpr float kNever = -1e30F;
-  Floats sum = {};
-  for (std::size_t voice = 0; voice < count; voice += kLanes) {
-    float agrees[kLanes];  // ln V, before what is common to all pairs of a corner
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      agrees[lane] = kNever;
-      if (voice + lane >= count) continue;
-      const std::uint32_t* const first = pairs.first + neighbours[voice + lane];
-      const std::size_t end = first[1];
-      Floats best = Floats{} + kNever;
-      for (std::size_t p = first[0]; p < end; p += kLanes) {
-        const Floats x = load(pairs.step_x_px + p) - step.x_px;
-        const Floats y = load(pairs.step_y_px + p) - step.y_px;
-        const Floats here = step.per_px2 * (x * x + y * y) + load(pairs.likeness + p);
-        best = larger(best, before(p, end) ? here : Floats{} + kNever);
-      }
-      best = larger(best, __builtin_shufflevector(best, best, 4, 5, 6, 7, 0, 1, 2, 3));
-      best = larger(best, __builtin_shufflevector(best, best, 2, 3, 0, 1, 6, 7, 4, 5));
-      best = larger(best, __builtin_shufflevector(best, best, 1, 0, 3, 2, 5, 4, 7, 6));
-      agrees[lane] = best[0];
+/// ln x of normal numbers above 0.
+inline __attribute__((always_inline)) Floats log_of(const Floats& x) {
+  const Floats exponent = __builtin_convertvector(((Ints)x >> 23) - 127, Floats);
+  const Floats mantissa = (Floats)(((Ints)x & 0x7fffff) | 0x3f800000);  // in [1, 2)
+  return exponent * 0.6931471805599453F + log1p_of(mantissa - 1.0F);
+}
+
+/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
+inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
+  return (x > 0.0F ? x : Floats{}) + log1p_of(exp_of(x < 0.0F ? x : -x));
+}
+
+void votes(const PairColumns& pairs, const int* neighbours, const float* weights,
+           const float* ln_clutter, std::size_t count, std::size_t asked, float* sums) {
+  const Floats step_x = load(pairs.step_x_px + asked), step_y = load(pairs.step_y_px + asked);
+  const Floats variance = pairs.variance_px2 + pairs.share2 * (step_x * step_x + step_y * step_y);
+  const Floats per_px2 = -0.5F / variance, ln_spread = log_of(6.283185307179586F * variance);
+  Floats votes[kLanes] = {};  // several sums, so that an addition need not wait for the last
+  for (std::size_t voice = 0; voice < count; ++voice) {
+    const std::uint32_t* const first = pairs.first + neighbours[voice];
+    const std::size_t end = first[1];
+    Floats agrees = Floats{} - 1e30F;  // ln V, before what is common to all pairs of a corner
+    for (std::size_t p = first[0]; p < end; ++p) {
+      const Floats x = pairs.step_x_px[p] - step_x, y = pairs.step_y_px[p] - step_y;
+      agrees = larger(agrees, per_px2 * (x * x + y * y) + pairs.likeness[p]);
     }
-    const Floats ln_ratio = load(agrees) - step.ln_spread - load(ln_clutter + voice);
-    const Floats vote = load(weights + voice) * (softplus(ln_ratio) - 0.6931471805599453F);
-    sum += before(voice, count) ? vote : Floats{};
+    votes[voice % kLanes] +=
+        weights[voice] * (softplus(agrees - ln_spread - ln_clutter[voice]) - 0.6931471805599453F);
   }
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+  store(((votes[0] + votes[1]) + (votes[2] + votes[3])) +
+            ((votes[4] + votes[5]) + (votes[6] + votes[7])),
+        sums);
 }
 
 void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,
@@ -304,21 +340,96 @@ void normal_sums(const ResidualColumns& residuals, std::size_t count, const doub
   }
 }
 
-std::size_t alike(const Signature& one, const Signature* many, std::size_t count, int most_bits,
-                  Alike* found) {
+#ifdef __AVX2__
+/// The numbers of bits that differ between a signature and four others.
+inline __attribute__((always_inline)) __m128i bits_apart(const Signature& one,
+                                                         const Signature* many, const int* places) {
+  const __m256i bits_of =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+  const __m256i low = _mm256_set1_epi8(15), a = _mm256_loadu_si256((const __m256i*)&one);
+  __m256i sums[4];  // of the bits of each quarter
+  for (int i = 0; i < 4; ++i) {
+    const __m256i unlike =
+        _mm256_xor_si256(a, _mm256_loadu_si256((const __m256i*)&many[places[i]]));
+    const __m256i high = _mm256_srli_epi16(unlike, 4);
+    sums[i] =
+        _mm256_sad_epu8(_mm256_add_epi8(_mm256_shuffle_epi8(bits_of, _mm256_and_si256(unlike, low)),
+                                        _mm256_shuffle_epi8(bits_of, _mm256_and_si256(high, low))),
+                        _mm256_setzero_si256());
+  }
+  const __m256i quarters = _mm256_packs_epi32(_mm256_packs_epi32(sums[0], sums[1]),
+                                              _mm256_packs_epi32(sums[2], sums[3]));
+  const __m256i halves = _mm256_madd_epi16(quarters, _mm256_set1_epi16(1));
+  return _mm_add_epi32(_mm256_castsi256_si128(halves), _mm256_extracti128_si256(halves, 1));
+}
+#endif
+
+std::size_t alike(const Signature& one, const Signature* many, const int* places, std::size_t count,
+                  int most_bits, Alike* found) {
   const auto* a = reinterpret_cast<const std::uint64_t*>(&one);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto* b = reinterpret_cast<const std::uint64_t*>(many + i);
+  std::size_t kept = 0, i = 0;
+#ifdef __AVX2__
+  for (; i + 4 <= count; i += 4) {
+    const __m128i apart = bits_apart(one, many, places + i);
+    const __m128i near = _mm_cmpgt_epi32(_mm_set1_epi32(most_bits + 1), apart);
+    auto set = static_cast<unsigned>(_mm_movemask_ps((__m128)near));
+    if (set == 0) continue;
+    int bits[4];
+    _mm_storeu_si128((__m128i*)bits, apart);
+    for (; set != 0; set &= set - 1) {
+      const int lane = __builtin_ctz(set);
+      found[kept++] = {places[i + lane], bits[lane]};
+    }
+  }
+#endif
+  for (; i < count; ++i) {
+    const auto* b = reinterpret_cast<const std::uint64_t*>(many + places[i]);
     const int bits = __builtin_popcountll(a[0] ^ b[0]) + __builtin_popcountll(a[1] ^ b[1]) +
                      __builtin_popcountll(a[2] ^ b[2]) + __builtin_popcountll(a[3] ^ b[3]);
-    found[kept] = {static_cast<int>(i), bits};
+    found[kept] = {places[i], bits};
     kept += bits <= most_bits;
   }
   return kept;
 }
 
-constexpr Loops kLoops = {within,    count_within, ties,        links, exponentials,
-                          half_tanh, votes,        normal_sums, alike};
+/// The numbers of a column with a stride that lie at some indices.
+inline __attribute__((always_inline)) Floats gather(const float* from, const Ints& indices) {
+#ifdef __AVX2__
+  return (Floats)_mm256_i32gather_ps(from, (__m256i)indices, 4);
+#else
+  Floats values;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) values[lane] = from[indices[lane]];
+  return values;
+#endif
+}
+
+/// ln of the density of a share over its largest one.
+inline __attribute__((always_inline)) Floats ln_off_of(const ExpectedTrack::Share& first,
+                                                       const Ints& indices, float x_px,
+                                                       float y_px) {
+  const Floats x = x_px - gather(&first.x_px, indices), y = y_px - gather(&first.y_px, indices);
+  return -0.5F * (x * x * gather(&first.P_xx, indices) + y * y * gather(&first.P_yy, indices)) -
+         x * y * gather(&first.P_xy, indices);
+}
+
+void densities(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
+               float y_px, float* ln_density, float* ln_off) {
+  constexpr int kStride = sizeof(ExpectedTrack) / sizeof(float);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    Ints indices;
+    __builtin_memcpy(&indices, which + i, sizeof indices);
+    indices = before(i, count) ? indices * kStride : Ints{};
+    const Floats still = ln_off_of(tracks->still, indices, x_px, y_px);
+    const Floats moving = ln_off_of(tracks->moving, indices, x_px, y_px);
+    store(larger(still, moving), ln_off + i);
+    store(log_of(exp_of(still + gather(&tracks->still.ln_most, indices)) +
+                 exp_of(moving + gather(&tracks->moving.ln_most, indices)) +
+                 gather(&tracks->anywhere_ppx2, indices)),
+          ln_density + i);
+  }
+}
+
+constexpr Loops kLoops = {within,    count_within, ties,        tied_sums, links, exponentials,
+                          half_tanh, votes,        normal_sums, densities, alike};
 
 }  // namespace

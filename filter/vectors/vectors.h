@@ -31,6 +31,13 @@ struct TieColumns {
   float far2;  ///< bound of the exponent, and of the squared distance in units of `reach2_px2`
 };
 
+/// Ties of nodes to later ones: blocks of `kLanes` weights, 0 where there is no tie.
+struct Ties {
+  const std::size_t* first;     ///< of each node's blocks, and the end
+  const std::uint32_t* starts;  ///< the first node of each block
+  const float* weights;         ///< (19)
+};
+
 /// Columns of edges that may be linked (MODEL.md (23)), padded.
 struct LinkColumns {
   const float *x_px, *y_px;
@@ -40,17 +47,26 @@ struct LinkColumns {
   float far2;  ///< bound of squared distances, in units and in deviations of the values
 };
 
+/// Where a track is expected in this frame (MODEL.md (6)): normal densities, each times its
+/// probability, and a uniform one.
+struct ExpectedTrack {
+  struct Share {
+    float x_px, y_px;
+    float P_xx, P_xy, P_yy;  ///< precision, 1/px^2
+    float ln_most;           ///< ln of the largest density; -infinity for none
+  };
+  float x_px, y_px;  ///< its rotated place
+  Share still, moving;
+  float anywhere_ppx2;
+};
+
 /// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
   const std::uint32_t* first;  ///< of each corner's pairs, and the end
-};
-
-/// A step for which neighbouring corners vote (MODEL.md (7)).
-struct AskedStep {
-  float x_px, y_px;
-  float per_px2;    ///< factor of the squared difference of two steps in the logarithm of V
-  float ln_spread;  ///< subtracted from that logarithm
+  /// Variance on an axis of the difference of two steps of one body: this, and a share of the
+  /// squared step (MODEL.md (7)).
+  float variance_px2, share2;
 };
 
 /// Columns of residuals of static tracks (MODEL.md (8)), padded by residuals of weight 0.
@@ -79,10 +95,13 @@ struct Loops {
                         float* distance2_px2);
   std::size_t (*count_within)(const float* x_px, const float* y_px, std::size_t first,
                               std::size_t last, float x0_px, float y0_px, float radius2_px2);
-  /// Finds the nodes of a range that are tied to a node.
-  /// \param exponents the bracket of (19).
+  /// Finds the nodes of a range that are tied to a node, in blocks of `kLanes` nodes.
+  /// \param starts room for all blocks: the first node of each. \param weights of their nodes.
+  /// \return how many blocks have a tie.
   std::size_t (*ties)(const TieColumns& nodes, std::size_t node, float noise2_px2,
-                      std::size_t first, std::size_t last, int* found, float* exponents);
+                      std::size_t first, std::size_t last, std::uint32_t* starts, float* weights);
+  /// The sum over the ties of each node of weight times value; both padded.
+  void (*tied_sums)(const Ties& ties, const float* values, std::size_t count, float* sums);
   /// Finds the nodes of a range that are linked to a node, within a radius of it.
   /// \param distances2 in units.
   std::size_t (*links)(const LinkColumns& nodes, std::size_t node, float radius2_px2,
@@ -91,19 +110,25 @@ struct Loops {
   void (*exponentials)(float* values, std::size_t count, float factor);
   /// tanh(m/2)
   void (*half_tanh)(const float* m, float* result, std::size_t count);
-  /// Sum of the votes of neighbours for a step: of the weight times ln((1 + V) / 2).
-  /// \param neighbours corners. \param weights, ln_clutter of each; padded.
-  float (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
-                 const float* ln_clutter, std::size_t count, const AskedStep& step);
+  /// Sums of the votes of neighbours for the steps of `kLanes` pairs: of the weight times
+  /// ln((1 + V) / 2).
+  /// \param neighbours corners. \param weights, ln_clutter of each. \param asked the first pair.
+  void (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
+                const float* ln_clutter, std::size_t count, std::size_t asked, float* sums);
   /// Sums of the equations of (9) for the turn and the velocity.
   /// \param fix present estimate.
   /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
   void (*normal_sums)(const ResidualColumns& residuals, std::size_t count, const double* fix,
                       const double* root, NormalSums& sums);
-  /// Finds the signatures of a list that are at most `most_bits` from one.
+  /// The densities (6) of a corner for some tracks.
+  /// \param which indices of tracks; padded.
+  /// \param ln_density, ln_off padded: of the density; of the larger share of its largest value.
+  void (*densities)(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
+                    float y_px, float* ln_density, float* ln_off);
+  /// Finds the signatures at some places of a list that are at most `most_bits` from one.
   /// \param found room for all.
-  std::size_t (*alike)(const Signature& one, const Signature* many, std::size_t count,
-                       int most_bits, Alike* found);
+  std::size_t (*alike)(const Signature& one, const Signature* many, const int* places,
+                       std::size_t count, int most_bits, Alike* found);
 };
 
 /// The loops by this machine's instructions.

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -84,6 +87,114 @@ TEST(Loops, TanhIsThatOfTheLibrary) {
   }
 }
 
+TEST(Loops, VotesAreThoseOfTheFormula) {
+  Random random(3);
+  const std::vector<float> x = column(random, 21, -9, 9), y = column(random, 21, -9, 9);
+  const std::vector<float> likeness = column(random, 21, 0, 10);
+  const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
+  const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
+  const std::vector<float> weights = column(random, voices.size(), 0, 1);
+  const std::vector<float> clutter = column(random, voices.size(), -7, -3);
+  constexpr float kVariance = 0.5, kShare2 = 0.04F;
+  constexpr std::size_t kAsked = 5;
+  for (const Loops* way : kWays) {
+    std::vector<float> sums(kLanes);
+    way->votes({x.data(), y.data(), likeness.data(), first.data(), kVariance, kShare2},
+               voices.data(), weights.data(), clutter.data(), voices.size(), kAsked, sums.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double step_x = x[kAsked + lane], step_y = y[kAsked + lane];
+      const double variance = kVariance + kShare2 * (step_x * step_x + step_y * step_y);
+      double expected = 0;
+      for (std::size_t voice = 0; voice < voices.size(); ++voice) {
+        double ratio = 0;
+        for (auto p = first[voices[voice]]; p < first[voices[voice] + 1]; ++p) {
+          const double apart2 = std::pow(x[p] - step_x, 2) + std::pow(y[p] - step_y, 2);
+          ratio = std::max(ratio, std::exp(likeness[p] - apart2 / (2 * variance) - clutter[voice]) /
+                                      (2 * std::numbers::pi * variance));
+        }
+        expected += weights[voice] * std::log((1 + ratio) / 2);
+      }
+      // Single precision, of terms of up to 20.
+      EXPECT_NEAR(sums[lane], expected, 2e-5) << lane;
+    }
+  }
+}
+
+TEST(Loops, SumOverTheTiesOfEachNode) {
+  Random random(4);
+  constexpr std::size_t kCount = 43;
+  const std::vector<float> x = column(random, kCount, 0, 90), y = column(random, kCount, 0, 90);
+  const std::vector<float> step = column(random, kCount, -2, 2), no_step(kCount + kLanes);
+  std::vector<float> reach2 = column(random, kCount, 100, 200);
+  reach2[5] = -1;  // has no ties
+  const std::vector<float> variance = column(random, kCount, 0.1, 1);
+  const TieColumns nodes = {x.data(),      y.data(),       step.data(),     no_step.data(),
+                            reach2.data(), no_step.data(), variance.data(), 9};
+  const std::vector<float> values = column(random, kCount, -1, 1);
+  std::vector<double> expected(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t j = 0; j < kCount; ++j) {
+      const double apart2 = std::pow(x[i] - x[j], 2) + std::pow(y[i] - y[j], 2);
+      if (i == j || apart2 > 9 * std::min(reach2[i], reach2[j])) continue;
+      const double exponent = apart2 / (reach2[i] + reach2[j]) +
+                              std::pow(step[i] - step[j], 2) / (variance[i] + variance[j] + 0.3);
+      if (exponent < 9) expected[i] += std::exp(-0.5 * exponent) * values[j];
+    }
+  }
+  EXPECT_EQ(expected[5], 0);
+  for (const Loops* way : kWays) {
+    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> starts(kCount * kCount);
+    std::vector<float> weights(kLanes * starts.size()), sums(kCount + kLanes);
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      first.push_back(end);
+      if (reach2[i] < 0) continue;
+      end += way->ties(nodes, i, 0.3F, i + 1, kCount, &starts[end], &weights[kLanes * end]);
+    }
+    first.push_back(end);
+    way->tied_sums({first.data(), starts.data(), weights.data()}, values.data(), kCount,
+                   sums.data());
+    // Single precision, of sums of up to 20.
+    for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(sums[i], expected[i], 1e-5) << i;
+  }
+}
+
+TEST(Loops, DensitiesAreThoseOfTheFormula) {
+  constexpr float kNever = -std::numeric_limits<float>::infinity();
+  const ExpectedTrack::Share near = {100, 50, 2, 0.5F, 1, -1}, far = {160, 40, 0.1F, 0, 0.2F, -3};
+  ExpectedTrack::Share none = near;
+  none.ln_most = kNever;
+  const std::vector<ExpectedTrack> tracks = {
+      {100, 50, near, far, 1e-4F}, {100, 50, far, near, 1e-5F}, {100, 50, near, none, 1e-3F}};
+  const auto ln_off = [](const ExpectedTrack::Share& share, double x, double y) {
+    x -= share.x_px;
+    y -= share.y_px;
+    return -0.5 * (share.P_xx * x * x + 2 * share.P_xy * x * y + share.P_yy * y * y);
+  };
+  std::vector<int> which = {2, 0, 1, 1, 2, 0, 0, 1, 2, 1};
+  const std::size_t count = which.size();
+  which.resize(count + kLanes, -1);  // behind the tracks, which no loop reads
+  std::vector<std::vector<float>> bits;
+  for (const Loops* way : kWays) {
+    for (const float x : {100.0F, 101.5F, 130.0F, 400.0F}) {
+      std::vector<float> density(count + kLanes), off(count + kLanes);
+      way->densities(tracks.data(), which.data(), count, x, 51, density.data(), off.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [x_px, y_px, still, moving, anywhere] = tracks[which[i]];
+        const double ln_still = ln_off(still, x, 51), ln_moving = ln_off(moving, x, 51);
+        const double all =
+            std::exp(ln_still + still.ln_most) + std::exp(ln_moving + moving.ln_most) + anywhere;
+        EXPECT_NEAR(density[i], std::log(all), 2e-6) << x << " " << i;
+        EXPECT_NEAR(off[i] / std::max(ln_still, ln_moving), 1, 1e-6) << x << " " << i;
+      }
+      density.resize(count);
+      bits.push_back(density);
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bits[i], bits[i + 4]);
+}
+
 TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   Random random(2);
   constexpr std::size_t kCount = 203;
@@ -97,11 +208,11 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
                             reach2.data(), length2.data(), variance.data(), 9};
   const LinkColumns edges = {x.data(), y.data(), reach2.data(), step_x.data(), variance.data(), 9};
   const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
-  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data()};
+  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data(), 1, 0.04F};
   const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
-  std::vector<std::pair<std::vector<int>, std::vector<float>>> tied, linked;
-  std::vector<std::vector<float>> powers, tanhs;
-  std::vector<float> votes;
+  std::vector<std::pair<std::vector<std::uint32_t>, std::vector<float>>> tied;
+  std::vector<std::pair<std::vector<int>, std::vector<float>>> linked;
+  std::vector<std::vector<float>> powers, tanhs, votes;
   std::vector<std::vector<double>> columns(11);
   for (std::vector<double>& column : columns) {
     for (std::size_t i = 0; i < kCount + kLanes; ++i) column.push_back(random.uniform(0.1, 1));
@@ -122,16 +233,20 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
       hits.second.resize(count);
       return hits;
     };
-    tied.push_back(found([&](int* places, float* exponents) {
-      return way->ties(nodes, 7, 0.3F, 8, kCount, places, exponents);
-    }));
+    std::vector<std::uint32_t> starts(kCount);
+    std::vector<float> weights(kLanes * kCount);
+    const std::size_t blocks = way->ties(nodes, 7, 0.3F, 8, kCount, starts.data(), weights.data());
+    starts.resize(blocks);
+    weights.resize(kLanes * blocks);
+    tied.emplace_back(starts, weights);
     linked.push_back(found([&](int* places, float* distances2) {
       return way->links(edges, 7, 900, 8, kCount, places, distances2);
     }));
     EXPECT_GT(tied.back().first.size(), 5u);
     EXPECT_GT(linked.back().first.size(), 0u);
-    votes.push_back(way->votes(pairs, voices.data(), length2.data(), variance.data(), voices.size(),
-                               {1, -2, -0.1F, 3}));
+    votes.emplace_back(kLanes);
+    way->votes(pairs, voices.data(), length2.data(), variance.data(), voices.size(), 13,
+               votes.back().data());
     powers.push_back(step_x);
     way->exponentials(powers.back().data(), kCount, 3);
     powers.back().resize(kCount);
@@ -161,10 +276,12 @@ TEST(Loops, FindSignaturesByTheirDistance) {
     }
   }
   const Signature one = many[7];
-  std::vector<Alike> found(many.size());
+  std::vector<int> places;  // every second one
+  for (int i = 1; i < 50; i += 2) places.push_back(i);
+  std::vector<Alike> found(places.size());
   for (const int most : {-1, 0, 120, 128, 256}) {
     std::vector<std::pair<int, int>> expected;
-    for (int i = 0; i < 50; ++i) {
+    for (const int i : places) {
       int bits = 0;
       for (int k = 0; k < 256; ++k)
         bits += static_cast<int>(((one[k / 64] ^ many[i][k / 64]) >> (k % 64)) & 1);
@@ -173,7 +290,8 @@ TEST(Loops, FindSignaturesByTheirDistance) {
     }
     for (const Loops* way : {&loops(), &plain_loops()}) {
       std::vector<std::pair<int, int>> in_order;
-      const std::size_t count = way->alike(one, many.data(), many.size(), most, found.data());
+      const std::size_t count =
+          way->alike(one, many.data(), places.data(), places.size(), most, found.data());
       for (const Alike& here : std::span(found).first(count)) {
         in_order.emplace_back(here.place, here.bits);
       }
