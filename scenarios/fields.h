@@ -143,15 +143,17 @@ inline constexpr std::string_view kDistortionKey =
 
 template <class Visit>
 void fields(Camera::Told& told, Visit&& visit) {
-  auto& [height_error_m, pitch_error_rad] = told;
+  auto& [height_error_m, pitch_error_rad, time_offset_error_s] = told;
   visit({"height_error", "added to the camera's true height"}, height_error_m, kPosition);
   visit({"pitch_error", "added to its true pitch"}, pitch_error_rad, kAngle);
+  visit({"time_offset_error", "added to its true `time_offset`"}, time_offset_error_s, kTimeOffset);
 }
 
 template <class Visit>
 void fields(Camera& camera, Visit&& visit) {
   auto& [source, width_px, height_px, fovy_rad, focal_px, centre_px, distortion, rate_hz,
-         position_m, rotation_rad, told, groups] = camera;
+         position_m, rotation_rad, told, time_offset_s, rolling_shutter_s, exposure_s, groups] =
+      camera;
   Eigen::Vector2i size_px(width_px, height_px);
   visit({"size", "[width, height] in pixels"}, size_px, Whole{16, 8192});
   width_px = size_px.x();
@@ -187,16 +189,54 @@ void fields(Camera& camera, Visit&& visit) {
         T_BC, kCoefficient);
   visit.in_place_of("T_BC", {"position", "rotation"});
   visit({"told",
-         "`{height_error: 2 cm, pitch_error: 0.5 deg}`: errors of the calibration that the filter "
-         "is given",
+         "`{height_error: 2 cm, pitch_error: 0.5 deg, time_offset_error: 5 ms}`: errors of the "
+         "calibration that the filter is given",
          "none"},
         told);
+  visit(
+      {"time_offset",
+       "Kalibr's `timeshift_cam_imu`: a picture with the stamp t shows the time t + `time_offset` "
+       "of the IMU's clock"},
+      time_offset_s, kTimeOffset);
+  visit(
+      {"rolling_shutter",
+       "time from the first row to the end of the last row; the first row is of the frame's time, "
+       "and row y of h comes y / h of this later; 0: all rows at once"},
+      rolling_shutter_s, kShutter);
+  visit({"exposure",
+         "each row is the mean of the light of this long, half of it before the row's time; 0: an "
+         "instant. What moves is smeared; `image.exposure` alone sets the brightness"},
+        exposure_s, kShutter);
   visit({"groups", "of geoms that are drawn: MuJoCo's `group`, 0 to 5"}, groups, GeomGroups{});
 }
 
 template <class Visit>
+void fields(Gyroscopes& gyroscopes, Visit&& visit) {
+  auto& [M, C_gyro_i, A, range_radps, resolution_radps] = gyroscopes;
+  visit({"M", "Kalibr's matrix of scales and misalignments, three rows: lower triangular"}, M,
+        kCoefficient);
+  visit({"C_gyro_i", "Kalibr's rotation from the IMU's frame to the gyroscopes'"}, C_gyro_i,
+        kCoefficient);
+  visit({"A", "Kalibr's effect of the specific force on the gyroscopes, (rad/s)/(m/s^2)"}, A,
+        kCoefficient);
+  visit({"range", "largest reading of an axis, of either sign", "unlimited"}, range_radps,
+        kImuRate);
+  visit({"resolution", "readings are multiples of it", "unlimited"}, resolution_radps, kImuRate);
+}
+
+template <class Visit>
+void fields(Accelerometers& accelerometers, Visit&& visit) {
+  auto& [M, range_mps2, resolution_mps2] = accelerometers;
+  visit({"M", "as that of the gyroscopes"}, M, kCoefficient);
+  visit({"range", "largest reading of an axis, of either sign: 16 g is 156.9", "unlimited"},
+        range_mps2, kImuAcceleration);
+  visit({"resolution", "readings are multiples of it", "unlimited"}, resolution_mps2,
+        kImuAcceleration);
+}
+
+template <class Visit>
 void fields(Imu& imu, Visit&& visit) {
-  auto& [preset, noise, rate_hz, gaps] = imu;
+  auto& [preset, noise, gyroscopes, accelerometers, position_m, rpy_rad, rate_hz, gaps] = imu;
   auto& [gyroscope_density, gyroscope_walk, accelerometer_density, accelerometer_walk,
          gyroscope_bias_radps, accelerometer_bias_mps2] = noise;
   std::string known = imu_preset(preset) ? preset : "ideal";
@@ -221,6 +261,13 @@ void fields(Imu& imu, Visit&& visit) {
          "standard deviation of a constant bias, drawn for each axis once a run"},
         gyroscope_bias_radps, kTurnOnRate);
   visit({"accelerometer_turn_on_bias", "likewise"}, accelerometer_bias_mps2, kTurnOnAcceleration);
+  visit({"gyroscopes", "their errors beside noise and bias", "none"}, gyroscopes);
+  visit({"accelerometers", "likewise", "none"}, accelerometers);
+  visit({"position", "[x, y, z] of the IMU in the rover", "that of the site `imu` in its file"},
+        position_m, kPosition);
+  visit({"rotation", "[roll, pitch, yaw] of the IMU's axes in the rover, as `camera.rotation`",
+         "that of the site `imu` in its file"},
+        rpy_rad, kAngle);
   visit({"gaps", "a list of [from, to]: times without readings, from above 0, increasing", "none"},
         gaps);
   visit({"rate", "samples a second"}, rate_hz, kSensorRate);
@@ -264,8 +311,8 @@ void fields(Image::Noise& noise, Visit&& visit) {
 
 template <class Visit>
 void fields(Image& image, Visit&& visit) {
-  auto& [light_lx, headlights, visibility_m, rain, blur_px, exposure_s, gain, noise, jpeg_quality] =
-      image;
+  auto& [light_lx, headlights, visibility_m, rain, blur_px, vignetting, exposure_s, gain, noise,
+         jpeg_quality] = image;
   visit({"light", "on the scene: 10 klx is an overcast day, 100 lx dusk, 0.5 lx night"}, light_lx,
         kIlluminance);
   visit({"headlights", "`{intensity: 3000 cd, beam: 20 deg}`: lamps at the camera", "none"},
@@ -274,9 +321,13 @@ void fields(Image& image, Visit&& visit) {
         kDistance);
   visit({"rain", "`{rate: 15, lens_drops: 25, drop_life: 4 s}`", "none"}, rain);
   visit({"blur", "standard deviation in pixels, on top of the lens's own"}, blur_px, kBlur);
+  visit({"vignetting",
+         "share of the light that the farthest corner of the picture loses; it grows with the "
+         "squared distance from the principal point"},
+        vignetting, kRatio);
   visit({"exposure",
          "at 1 ms a white surface in daylight fills a pixel; it makes noise and the length of "
-         "streaks, no motion blur"},
+         "streaks; `camera.exposure` smears what moves"},
         exposure_s, In{kExposure, "ms"});
   visit({"gain", "after the sensor, of signal and noise"}, gain, kGain);
   visit({"noise", "`{full_well: 10000, read: 5}`, or `none`"}, noise, OrWord<Plain>{{}, "none"});
@@ -426,9 +477,9 @@ void fields(Recorded::Topics& topics, Visit&& visit) {
 template <class Visit>
 void fields(Recorded& recorded, Visit&& visit) {
   auto& [source, path, format, camera, topics, fps, times, time_unit, every, poses, imu, odometry,
-         speed_mps, calibration, imu_calibration, focal_px, centre_px, distortion, bayer, bits,
-         camera_height_m, mount_rpy_rad, mask, at_rest_s, labels, labels_video, nothing_moves,
-         split] = recorded;
+         speed_mps, time_offset_s, calibration, imu_calibration, focal_px, centre_px, distortion,
+         bayer, bits, camera_height_m, mount_rpy_rad, mask, at_rest_s, labels, labels_video,
+         nothing_moves, split] = recorded;
   visit({"path", "a folder, a video or a ROS bag", kRequired}, path, FolderOrFile{});
   visit({"format", "the layout of the files", "recognised from the files"}, format,
         Words{{kRecordingFormats.begin(), kRecordingFormats.end()}});
@@ -469,7 +520,12 @@ void fields(Recorded& recorded, Visit&& visit) {
          "is not known; with `imu` at the start",
          "none"},
         speed_mps, kSignedSpeed);
-  for (const char* key : {"imu", "odometry", "speed"}) visit.at_most_one_of({"poses", key});
+  visit({"time_offset", "of pictures to the IMU, as `camera.time_offset`",
+         "the calibration's `timeshift_cam_imu`, else 0"},
+        time_offset_s, kTimeOffset);
+  for (const char* key : {"imu", "odometry", "speed", "time_offset"}) {
+    visit.at_most_one_of({"poses", key});
+  }
   visit({"calibration",
          "of the camera, in place of the layout's: YAML of Kalibr (camchain), OpenCV, ROS "
          "(`camera_info`), ORB-SLAM3, VINS-Fusion or OpenVINS; with `camera` one of several",

@@ -106,6 +106,10 @@ Kind kind_of(const Form& form, const Eigen::Matrix<Number, N, 1>&) {
   return array_of(kind_of(form, Number{}), N, N);
 }
 
+Kind kind_of(const input::Quantity& quantity, const Eigen::Matrix3d&) {
+  return array_of(kind_of(quantity, Eigen::Vector3d()), 3, 3);
+}
+
 template <HasFields T>
 Kind kind_of(Plain, const T& object);
 

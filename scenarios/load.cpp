@@ -58,6 +58,32 @@ void complete(input::Reader&, Imu& imu) {
   if (imu.noise != imu_preset(imu.preset)) imu.preset = "custom";
 }
 
+constexpr double kRounding = 1e-5;  // calibrations are printed with some digits
+
+bool is_rotation(const Eigen::Matrix3d& R) {
+  return (R * R.transpose()).isIdentity(kRounding) && R.determinant() > 0;
+}
+
+void require_lower_triangular(input::Reader& reader, const Eigen::Matrix3d& M) {
+  if (M.isLowerTriangular() && (M.diagonal().array() > 0).all()) return;
+  throw input::Error(reader.find("M")->where,
+                     reader.path_of("M") +
+                         " is not lower triangular with a diagonal above 0, as Kalibr's is; give "
+                         "[[x, 0, 0], [yx, y, 0], [zx, zy, z]], with 1 for an exact scale");
+}
+
+void complete(input::Reader& reader, Gyroscopes& gyroscopes) {
+  require_lower_triangular(reader, gyroscopes.M);
+  if (is_rotation(gyroscopes.C_gyro_i)) return;
+  throw input::Error(reader.find("C_gyro_i")->where,
+                     reader.path_of("C_gyro_i") +
+                         " is no rotation; give three rows of one, as Kalibr writes them");
+}
+
+void complete(input::Reader& reader, Accelerometers& accelerometers) {
+  require_lower_triangular(reader, accelerometers.M);
+}
+
 void complete(input::Reader& reader, Criterion& criterion) {
   if (!criterion.min && !criterion.max) {
     throw input::Error(criterion.source, reader.path() + " has no bound; give min, max or both");
@@ -148,6 +174,15 @@ void read_value(const Item& item, const Form& form, Eigen::Matrix<Number, N, 1>&
   const std::vector<input::Value>& list = input::as_list(item.value, item.path, N);
   for (std::size_t i = 0; i < list.size(); ++i) {
     read_value(item.at(i, list[i]), form, out[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+void read_value(const Item& item, const input::Quantity& quantity, Eigen::Matrix3d& out) {
+  const std::vector<input::Value>& rows = input::as_list(item.value, item.path, 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Eigen::Vector3d row;
+    read_value(item.at(i, rows[i]), quantity, row);
+    out.row(static_cast<Eigen::Index>(i)) = row;
   }
 }
 
@@ -417,21 +452,42 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
   }
 }
 
-/// Takes position and rotation from `T_BC`.
+/// Takes position and rotation from `T_BC`, and checks that a frame is whole before the next one.
 void complete(input::Reader& reader, Camera& camera) {
+  const double period_s = 1 / camera.rate_hz;
+  const auto require_within = [&](const char* key, double time_s, const std::string& what) {
+    if (time_s <= period_s) return;
+    throw input::Error(reader.find(key)->where,
+                       reader.path_of(key) + what + " more than the " +
+                           input::number_text(period_s) +
+                           " s from one frame to the next; make it shorter, or the rate lower");
+  };
+  require_within(camera.rolling_shutter_s > 0 ? "rolling_shutter" : "exposure",
+                 camera.rolling_shutter_s + camera.exposure_s,
+                 camera.rolling_shutter_s > 0 && camera.exposure_s > 0
+                     ? " and exposure together take"
+                     : " takes");
+  require_within("time_offset", std::abs(camera.time_offset_s), " is");
+  if (const input::Value* told = reader.find("told")) {
+    input::Reader inner(*told, reader.path_of("told"));
+    if (std::abs(camera.told.time_offset_error_s) > period_s) {
+      throw input::Error(inner.find("time_offset_error")->where,
+                         inner.path_of("time_offset_error") + " is more than the " +
+                             input::number_text(period_s) +
+                             " s from one frame to the next; make it smaller");
+    }
+  }
   const input::Value* value = reader.find("T_BC");
   if (!value) return;
   const fs::path nowhere;
   std::vector<Eigen::Vector4d> rows;
   read_value(Item{*value, reader.path_of("T_BC"), nowhere}, kCoefficient, rows);
-  constexpr double kRounding = 1e-5;  // calibrations are printed with some digits
   Eigen::Matrix4d T = Eigen::Matrix4d::Zero();
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
     T.row(static_cast<Eigen::Index>(i)) = rows[i];
   }
   const Eigen::Matrix3d R_BC = T.topLeftCorner<3, 3>();
-  if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
-      !(R_BC * R_BC.transpose()).isIdentity(kRounding) || R_BC.determinant() < 0) {
+  if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || !is_rotation(R_BC)) {
     throw input::Error(value->where, reader.path_of("T_BC") +
                                          " is no rigid transform; give four rows: a rotation "
                                          "beside a translation, and 0 0 0 1");
@@ -469,8 +525,9 @@ struct ReadFields {
   }
 };
 
-/// Keys of other simulators and of calibrations, and the remedy.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kForeignKeys{{
+/// Keys of other simulators, of calibrations and of other maps of a scenario, and the remedy where
+/// the map has no such key.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 41> kForeignKeys{{
     {"fx", "give camera.focal: [fx, fy]"},
     {"fy", "give camera.focal: [fx, fy]"},
     {"cx", "give camera.centre: [cx, cy]"},
@@ -482,18 +539,41 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kForeign
     {"T_BS", "give camera.T_BC"},
     {"T_imu_cam", "give camera.T_BC"},
     {"T_cam_imu", "give its inverse as camera.T_BC"},
-    {"rolling_shutter", ""},
-    {"motion_blur", ""},
+    {"rolling_shutter", "give camera.rolling_shutter"},
+    {"rolling_shutter_line_time", "give camera.rolling_shutter: this times the rows"},
+    {"line_delay", "give camera.rolling_shutter: this times the rows"},
+    {"rolling_shutter_time", "give camera.rolling_shutter"},
+    {"rolling_shutter_tr", "give camera.rolling_shutter"},
+    {"readout_time", "give camera.rolling_shutter"},
+    {"motion_blur", "give camera.exposure"},
+    {"shutter_speed", "give camera.exposure"},
+    {"exposure_time", "give camera.exposure for blur, image.exposure for brightness"},
+    {"timeshift_cam_imu", "give camera.time_offset, with the same sign"},
+    {"time_offset", "give camera.time_offset"},
+    {"calib_camimu_dt", "give camera.time_offset, with the same sign"},
+    {"vignetting", "give image.vignetting"},
+    {"exposure", "give camera.exposure for blur, image.exposure for brightness"},
+    {"accelerometer_noise_density", "give imu.accelerometer_noise_density"},
+    {"gyroscope_noise_density", "give imu.gyroscope_noise_density"},
+    {"accelerometer_random_walk", "give imu.accelerometer_random_walk"},
+    {"gyroscope_random_walk", "give imu.gyroscope_random_walk"},
+    {"accel_noise_density", "give imu.accelerometer_noise_density"},
+    {"gyro_noise_density", "give imu.gyroscope_noise_density"},
+    {"acc_n", "give imu.accelerometer_noise_density, per sqrt(Hz)"},
+    {"gyr_n", "give imu.gyroscope_noise_density, per sqrt(Hz)"},
+    {"acc_w", "give imu.accelerometer_random_walk, per sqrt(Hz)"},
+    {"gyr_w", "give imu.gyroscope_random_walk, per sqrt(Hz)"},
+    {"update_rate", "give imu.rate"},
+    {"rate_hz", "give the rate of the sensor as its rate"},
+    {"T_i_b", "give imu.position and imu.rotation"},
     {"cameras", ""},
     {"stereo", ""},
-    {"time_offset", ""},
-    {"timeshift_cam_imu", ""},
-    {"vignetting", ""},
     {"auto_exposure", ""},
 }};
 
-void refuse_foreign_keys(const Item& item) {
+void refuse_foreign_keys(const Item& item, const input::Reader& reader) {
   for (const input::Entry& entry : item.value.entries) {
+    if (reader.knows(entry.key)) continue;
     const auto* const found = std::ranges::find(kForeignKeys, std::string_view(entry.key),
                                                 &decltype(kForeignKeys)::value_type::first);
     if (found == kForeignKeys.end()) continue;
@@ -511,8 +591,8 @@ template <HasFields T>
 void read_value(const Item& item, Plain, T& out) {
   input::Reader reader(item.value, item.path);
   if constexpr (requires { out.source; }) out.source = reader.where();
-  refuse_foreign_keys(item);
   fields(out, ReadFields{reader, item.folder});
+  refuse_foreign_keys(item, reader);
   reader.finish();
   complete(reader, out);
 }

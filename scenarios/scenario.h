@@ -91,12 +91,22 @@ struct Camera {
   /// Roll, pitch, yaw about B's fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll). With
   /// all 0 the camera looks along B's x, upright; positive pitch is down, positive yaw is left.
   Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();
-  /// Errors of the calibration that the filter gets: its height and pitch of the mount are the true
-  /// ones plus these.
+  /// Errors of the calibration that the filter gets: its height and pitch of the mount and its time
+  /// offset are the true ones plus these.
   struct Told {
     double height_error_m = 0;
     double pitch_error_rad = 0;
+    double time_offset_error_s = 0;
   } told;
+  /// A frame that shows the time t of the IMU's clock has the stamp t - time_offset: Kalibr's
+  /// `timeshift_cam_imu`.
+  double time_offset_s = 0;
+  /// Time from the first row to the end of the last row. Row y of h shows the time of the frame
+  /// plus y / h of it. 0: all rows show the time of the frame.
+  double rolling_shutter_s = 0;
+  /// Time during which a row collects light, with the row's time in its middle. It smears the
+  /// picture; its brightness depends on `Image::exposure_s` alone. 0: an instant.
+  double exposure_s = 0;
   std::vector<int> groups{0, 1, 2};  ///< MuJoCo's groups whose geoms are drawn, each once
 };
 
@@ -116,6 +126,32 @@ struct ImuNoise {
   bool operator==(const ImuNoise&) const = default;
 };
 
+/// \name Errors of the sensors of an IMU, beside `ImuNoise`. With w and f the true rate and
+/// specific force in the IMU's frame, the sensors read, before noise,
+///
+///     M_gyro C_gyro_i w + A C_gyro_i f   and   M_accel f
+///
+/// as in Kalibr's model "scale-misalignment". Noise is added; then values beyond the range become
+/// the range, and all become multiples of the resolution.
+///@{
+struct Gyroscopes {
+  Eigen::Matrix3d M = Eigen::Matrix3d::Identity();         ///< lower triangular
+  Eigen::Matrix3d C_gyro_i = Eigen::Matrix3d::Identity();  ///< rotation, IMU's frame to gyroscopes'
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();             ///< (rad/s) / (m/s^2)
+  std::optional<double> range_radps;                       ///< absent: unlimited
+  std::optional<double> resolution_radps;                  ///< absent: unlimited
+
+  bool operator==(const Gyroscopes&) const = default;
+};
+struct Accelerometers {
+  Eigen::Matrix3d M = Eigen::Matrix3d::Identity();  ///< lower triangular
+  std::optional<double> range_mps2;                 ///< absent: unlimited
+  std::optional<double> resolution_mps2;            ///< absent: unlimited
+
+  bool operator==(const Accelerometers&) const = default;
+};
+///@}
+
 /// The interval [from_s, to_s).
 struct TimeSpan {
   double from_s = 0;
@@ -126,6 +162,11 @@ struct Imu {
   /// adis16448, tumvi, esim, ideal, or custom when a key overrides the preset.
   std::string preset = "adis16448";
   ImuNoise noise;
+  Gyroscopes gyroscopes;
+  Accelerometers accelerometers;
+  std::optional<Eigen::Vector3d> position_m;  ///< of the IMU in B; absent: as in the rover's file
+  /// As `Camera::mount_rpy_rad`, of the IMU's axes; absent: as in the rover's file.
+  std::optional<Eigen::Vector3d> rpy_rad;
   double rate_hz = 200;
   std::vector<TimeSpan> gaps;  ///< without readings, in order; each begins after 0
 };
@@ -170,6 +211,9 @@ struct Image {
   std::optional<double> visibility_m;  ///< at which contrast falls to 2 %; absent: clear air
   std::optional<Rain> rain;
   double blur_px = 0;  ///< standard deviation, in addition to the lens blur
+  /// Share of the light that a corner of the picture loses; it grows with the squared distance from
+  /// the principal point to the farthest corner.
+  double vignetting = 0;
   double exposure_s = kDaylightExposure_s;
   double gain = 1;
   std::optional<Noise> noise = Noise{};  ///< absent: a sensor without noise
@@ -268,6 +312,7 @@ struct Recorded {
   std::optional<std::filesystem::path> imu;       ///< columns as in EuRoC
   std::optional<std::filesystem::path> odometry;  ///< velocity, in EuRoC's style; needs an IMU
   std::optional<double> speed_mps;                ///< along the optical axis; 0: at rest
+  std::optional<double> time_offset_s;  ///< as `Camera::time_offset_s`, to the IMU's clock
   ///@}
   std::optional<std::filesystem::path> calibration;      ///< of the camera; exists
   std::optional<std::filesystem::path> imu_calibration;  ///< noise, as Kalibr has it; exists

@@ -70,6 +70,13 @@ input::Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector
   for (const Number number : vector) items.items.push_back(written(form, number));
   return items;
 }
+inline input::Value written(const input::Quantity& quantity, const Eigen::Matrix3d& matrix) {
+  input::Value rows = list({});
+  for (const Eigen::Vector3d row : matrix.transpose().colwise()) {
+    rows.items.push_back(written(quantity, row));
+  }
+  return rows;
+}
 inline input::Value written(const OneOrTwo& form, const Eigen::Vector2d& pair) {
   return pair.x() == pair.y() ? written(form.quantity, pair.x()) : written(form.quantity, pair);
 }

@@ -2,27 +2,23 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/world/world.h"
+#include "sim/world/passage.h"
 
 namespace lcs::sim {
 
 Drive drive(const scenario::Scenario& scenario) {
   World world(scenario);
   Drive result{calibrate(world, scenario.camera), {}};
-  Observation next;
-  world.advance_to(0, next.imu, next.odometry);
-  next.truth.now = world.snapshot();
+  Passage passage(world, scenario);
   for (int k = 0; k < scenario.frames; ++k) {
-    Observation frame = std::move(next);
-    frame.index = k;
-    frame.t_ns = event_time_ns(k, scenario.camera.rate_hz);
-    frame.truth.v_WC_mps = world.v_WC_mps();
-    frame.truth.w_C_radps = world.w_C_radps();
-    next = {};
-    world.advance_to(event_time_ns(k + 1, scenario.camera.rate_hz), next.imu, next.odometry);
-    next.truth.now = world.snapshot();
-    frame.truth.next = next.truth.now;
-    result.frames.push_back(std::move(frame));
+    Observation& frame = result.frames.emplace_back();
+    FrameState& now = passage.frame();
+    frame.truth.now = std::move(now.now);
+    frame.truth.v_WC_mps = now.v_WC_mps;
+    frame.truth.w_C_radps = now.w_C_radps;
+    passage.advance(frame);
+    frame.imu_truth.clear();
+    frame.truth.next = passage.frame().now;
   }
   return result;
 }
@@ -38,6 +34,7 @@ Calibration calibrate(const World& world, const scenario::Camera& camera) {
   c.T_BS = T_BW * world.T_WS();
   c.T_WB_start = world.T_WB();
   c.v_WB_start_mps = world.v_WB_mps();
+  c.time_offset_s = camera.time_offset_s + camera.told.time_offset_error_s;
   c.gravity_mps2 = world.gravity_mps2();
   c.on_ground = world.is_on_ground();
   return c;

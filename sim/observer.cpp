@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <opencv2/core.hpp>
+#include <optional>
 
+#include "sim/camera/linear_light.h"
 #include "sim/drive.h"
 
 namespace lcs::sim {
@@ -43,24 +46,27 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
       renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups()),
       parts_(outlines(world_)),
       photographer_(photographer_of(scenario, calibration_.optics)),
-      snapshot_(world_.snapshot()) {
-  world_.advance_to(0, imu_, odometry_, &imu_truth_);
-}
+      passage_(world_, scenario) {}
 
 Observation Observer::observe() {
   Observation o;
-  o.index = next_index_;
-  o.t_ns = event_time_ns(next_index_, scenario_.camera.rate_hz);
-  o.imu = std::move(imu_);
-  o.odometry = std::move(odometry_);
-  o.imu_truth = std::move(imu_truth_);
-  render(o);
-  o.truth.now = std::move(snapshot_);
-  o.truth.v_WC_mps = world_.v_WC_mps();
-  o.truth.w_C_radps = world_.w_C_radps();
-
-  advance();
-  o.truth.next = snapshot_;
+  const Shutter& shutter = passage_.shutter();
+  if (shutter.is_instant()) render(o);
+  FrameState frame = std::move(passage_.frame());
+  passage_.advance(o);
+  if (!shutter.is_instant()) render_through_shutter(frame, o);
+  develop(o);
+  o.truth.now = std::move(frame.now);
+  o.truth.v_WC_mps = frame.v_WC_mps;
+  o.truth.w_C_radps = frame.w_C_radps;
+  o.truth.next = passage_.frame().now;
+  if (shutter.rolls()) {
+    const auto readout = [&](const std::vector<Snapshot>& at) -> Readout {
+      return {at, shutter.row_at(0), shutter.row_at(1) - shutter.row_at(0)};
+    };
+    o.truth.now_rows = readout(frame.snapshots);
+    o.truth.next_rows = readout(passage_.frame().snapshots);
+  }
   o.objects = visible_objects(o.truth);
   for (const ObjectTruth& object : o.objects) seen_.insert(object.object);
   if (++observed_ == scenario_.frames) note_unseen();
@@ -82,20 +88,119 @@ void Observer::note_unseen() {
 }
 
 void Observer::advance() {
-  imu_.clear();
-  odometry_.clear();
-  imu_truth_.clear();
-  ++next_index_;
-  world_.advance_to(event_time_ns(next_index_, scenario_.camera.rate_hz), imu_, odometry_,
-                    &imu_truth_);
-  snapshot_ = world_.snapshot();
+  Observation skipped;
+  passage_.advance(skipped);
 }
 
 void Observer::render(Observation& o) {
   renderer_.update();
   renderer_.render_colour(o.rendered);
-  CameraRenderer::blur(o.rendered, o.image);
   renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
+  CameraRenderer::blur(o.rendered, o.image);
+}
+
+void Observer::show(const Stage& stage) {
+  world_.show(stage);
+  renderer_.update();
+}
+
+/// The longest way that a visible point takes through the picture during the shutter's window, from
+/// every eighth pixel of the drawing in its middle.
+double Observer::shift_px(const FrameState& frame, const cv::Mat1f& depth_m,
+                          const cv::Mat1i& geom) const {
+  constexpr int kStride_px = 8;
+  constexpr std::size_t kParts = 8;
+  const Optics& optics = calibration_.optics;
+  const std::vector<Snapshot>& at = frame.snapshots;
+  const Snapshot& middle = at[Shutter::kMiddle];
+  // from the camera in the middle to that at each time, for each object
+  std::vector<std::vector<Pose>> ways(middle.T_WO.size());
+  for (std::size_t id = 0; id < ways.size(); ++id) {
+    const Pose T_OC = middle.T_WO[id].inverse() * middle.T_WC;
+    for (std::size_t part = 0; part <= kParts; ++part) {
+      const Snapshot& then = at[part * (at.size() - 1) / kParts];
+      ways[id].push_back(then.T_WC.inverse() * (then.T_WO[id] * T_OC));
+    }
+  }
+  double longest_px = 0;
+  for (int y = 0; y < geom.rows; y += kStride_px) {
+    for (int x = 0; x < geom.cols; x += kStride_px) {
+      const int object = geom(y, x) < 0 ? -1 : world_.object_of_geom(geom(y, x));
+      if (object < 0) continue;
+      const Eigen::Vector3d p_C = optics.back_project(Eigen::Vector2d(x, y), depth_m(y, x));
+      double way_px = 0;
+      std::optional<Eigen::Vector2d> last_px;
+      for (const Pose& way : ways[static_cast<std::size_t>(object)]) {
+        const Eigen::Vector3d there = way * p_C;
+        if (there.z() < renderer_.near_m()) break;
+        const Eigen::Vector2d px = optics.project(there);
+        if (last_px && px.allFinite()) way_px += (px - *last_px).norm();
+        last_px = px;
+      }
+      longest_px = std::max(longest_px, way_px);
+    }
+  }
+  return longest_px;
+}
+
+void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
+  const Shutter& shutter = passage_.shutter();
+  const Stage present = world_.stage();
+  show(frame.stages[Shutter::kMiddle]);
+  renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
+  const double shift = shift_px(frame, o.truth.depth_m, o.geom);
+  const int n = Shutter::drawings_for(shift);
+  if (shift > n * Shutter::kMostShift_px) {
+    world_.warnings().add(
+        Warning::coarse_shutter,
+        fmt::format("frame {} shifts by {:.0f} px during readout and exposure, and is drawn at {} "
+                    "instants, {:.2f} px apart",
+                    o.index, shift, n, shift / n));
+  }
+  if (!shutter.rolls()) renderer_.render_colour(o.rendered);  // of the frame's time, as the truth
+  cv::Mat3f light;
+  cv::Mat3b drawing;
+  cv::Mat1f depth_m;
+  cv::Mat1i geom;
+  for (int i = 0; i < n; ++i) {
+    show(frame.stages[Shutter::instant_of(i, n)]);
+    renderer_.render_colour(drawing);
+    const int rows = drawing.rows;
+    if (shutter.smears()) {
+      if (light.empty()) light = cv::Mat3f::zeros(drawing.size());
+      const cv::Mat3f linear = to_linear(drawing);
+      for (int y = 0; y < rows; ++y) {
+        if (const double share = shutter.share(y, i, n); share > 0) {
+          cv::scaleAdd(linear.row(y), share, light.row(y), light.row(y));
+        }
+      }
+    }
+    if (!shutter.rolls()) continue;
+    if (o.rendered.empty()) o.rendered.create(drawing.size());
+    std::vector<int> own;  // rows whose time is in this cell: they are next to each other
+    for (int y = 0; y < rows; ++y) {
+      if (shutter.drawing_of(y, n) == i) own.push_back(y);
+    }
+    if (own.empty()) continue;
+    renderer_.render_depth_and_geoms(depth_m, geom);
+    const cv::Range range(own.front(), own.back() + 1);
+    const auto take = [&](const cv::Mat& from, cv::Mat& to) {
+      from.rowRange(range).copyTo(to.rowRange(range));
+    };
+    take(drawing, o.rendered);
+    take(depth_m, o.truth.depth_m);
+    take(geom, o.geom);
+  }
+  world_.show(present);
+  if (shutter.smears()) {
+    to_codes(light, drawing);
+  } else {
+    drawing = o.rendered;
+  }
+  CameraRenderer::blur(drawing, o.image);
+}
+
+void Observer::develop(Observation& o) {
   photographer_.develop(o.image, o.truth.depth_m, o.index);
   o.truth.object.create(o.geom.size());
   std::transform(o.geom.begin(), o.geom.end(), o.truth.object.begin(),
@@ -122,14 +227,16 @@ std::vector<double> Observer::areas_px(const cv::Mat1i& object) const {
 std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) const {
   std::vector<ObjectTruth> all = modal_boxes(truth.object, static_cast<int>(parts_.size()) - 1);
   std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
-  const Pose T_CW = truth.now.T_WC.inverse();
+  const Way way(truth, truth.object.rows);
   const std::vector<double> seen_px = areas_px(truth.object);
   for (ObjectTruth& o : all) {
     const auto id = static_cast<std::size_t>(o.object);
-    const double full = silhouette_px(calibration_.camera, T_CW * truth.now.T_WO[id], parts_[id],
-                                      renderer_.near_m());
+    const double row = (o.top + o.bottom) / 2.0;
+    const double full =
+        silhouette_px(calibration_.camera, way.T_WC(row).inverse() * way.T_WO(id, row), parts_[id],
+                      renderer_.near_m());
     o.visible_fraction = full > 0 ? std::min(1.0, seen_px[id] / full) : 0;
-    o.moving = moved(truth.now.T_WO[id], truth.next.T_WO[id]);
+    o.moving = way.moves(id);
   }
   return all;
 }

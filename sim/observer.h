@@ -12,7 +12,7 @@
 #include "sim/camera/photograph.h"
 #include "sim/simulation.h"
 #include "sim/truth/silhouette.h"
-#include "sim/world/world.h"
+#include "sim/world/passage.h"
 
 namespace lcs::sim {
 
@@ -24,9 +24,10 @@ class Observer {
 
   const scenario::Scenario& scenario() const { return scenario_; }
   const Calibration& calibration() const { return calibration_; }
-  /// The world at the time of the next frame.
+  /// The world at the time of the next frame, or at the end of its exposure and readout.
   const World& world() const { return world_; }
-  int next_index() const { return next_index_; }  ///< of the next frame
+  int next_index() const { return passage_.index(); }  ///< of the next frame
+  const FrameState& frame() const { return passage_.frame(); }
   std::string gl_renderer() const { return renderer_.gl_renderer(); }
 
   /// Renders the next frame, even beyond the scenario's number of frames. \throws PhysicsError
@@ -37,6 +38,10 @@ class Observer {
 
  private:
   void render(Observation& o);
+  void render_through_shutter(const FrameState& frame, Observation& o);
+  void show(const Stage& stage);
+  double shift_px(const FrameState& frame, const cv::Mat1f& depth_m, const cv::Mat1i& geom) const;
+  void develop(Observation& o);
   std::vector<double> areas_px(const cv::Mat1i& object) const;
   std::vector<ObjectTruth> visible_objects(const FrameTruth& truth) const;
   void note_unseen();
@@ -47,11 +52,7 @@ class Observer {
   LensRenderer renderer_;
   std::vector<ConvexParts> parts_;
   Photographer photographer_;
-  Snapshot snapshot_;           ///< at the next frame
-  std::vector<ImuSample> imu_;  ///< since the last frame
-  std::vector<OdometrySample> odometry_;
-  std::vector<ImuTruth> imu_truth_;
-  int next_index_ = 0;
+  Passage passage_;
   int observed_ = 0;    ///< number of frames rendered
   std::set<int> seen_;  ///< objects with a visible pixel in any of them
 };

@@ -1,5 +1,5 @@
 /// \file
-/// The rotation between two directions.
+/// The rotation between two directions, and that of roll, pitch and yaw.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,6 +20,14 @@ inline Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eige
     q.coeffs() << a.cross(b) * (1 / twice_w), twice_w * 0.5;
   }
   return q;
+}
+
+/// Roll, pitch and yaw about fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll).
+inline Eigen::Matrix3d rotation_of_rpy(const Eigen::Vector3d& rpy_rad) {
+  return (Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
 }
 
 }  // namespace lcs::sim

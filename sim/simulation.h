@@ -21,13 +21,15 @@ namespace lcs::sim {
 
 struct Observation {
   int index = 0;          ///< k, from 0
-  std::int64_t t_ns = 0;  ///< k / rate, from 0
+  std::int64_t t_ns = 0;  ///< k / rate, from 0, by the clock of the IMU
   cv::Mat3b image;        ///< BGR
   /// BGR, before lens blur, light, weather and sensor: each pixel shows one surface, that of the
   /// truth. With a distortion a pixel at an outline mixes its two surfaces.
   cv::Mat3b rendered;
-  cv::Mat1i geom;              ///< the model's geom at each pixel of `rendered`; -1 for the sky
-  std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
+  cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
+  /// t(k-1) < t <= t(k), with the times of frames that the filter is told (`time_offset_error` of
+  /// `camera.told`); the first frame has the sample at 0.
+  std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
   std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps
   FrameTruth truth;
@@ -43,6 +45,7 @@ struct Calibration {
   Pose T_BS;       ///< IMU in the rover's frame
   Pose T_WB_start;
   Eigen::Vector3d v_WB_start_mps = Eigen::Vector3d::Zero();
+  double time_offset_s = 0;    ///< time by the IMU's clock - time by the camera's, as Kalibr
   double gravity_mps2 = 9.81;  ///< along -z of W
   bool on_ground = false;      ///< the rover's origin stays on the ground, which is level
 };

@@ -99,8 +99,8 @@ Survey survey(const scenario::Scenario& scenario, int looks,
   }
   std::set<std::string> known;
   for (int k = 0; k < scenario.frames; ++k) {
-    s.snapshots.push_back(world.snapshot());
-    s.rover_m.emplace_back(world.T_WB().p.head<2>());
+    s.snapshots.push_back(observer.frame().now);
+    s.rover_m.emplace_back(observer.frame().T_WB.p.head<2>());
     note_inside(world, 1e-9 * static_cast<double>(event_time_ns(k, scenario.camera.rate_hz)), known,
                 s.inside);
     if (looked_at.contains(k)) {

@@ -1,5 +1,6 @@
 #include "sim/camera/photograph.h"
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -8,6 +9,25 @@
 #include "sim/pictures/picture_file.h"
 
 namespace lcs::sim {
+namespace {
+
+/// The share of the light that passes the lens: 1 - loss (r / R)^2, with r the distance from the
+/// principal point and R that of the farthest corner.
+cv::Mat3f falloff_of(double loss, const Lens& lens) {
+  cv::Mat3f falloff(lens.height_px, lens.width_px);
+  const double far_x = std::max(lens.cu_px, lens.width_px - 1 - lens.cu_px);
+  const double far_y = std::max(lens.cv_px, lens.height_px - 1 - lens.cv_px);
+  for (int y = 0; y < falloff.rows; ++y) {
+    for (int x = 0; x < falloff.cols; ++x) {
+      const double dx = x - lens.cu_px, dy = y - lens.cv_px;
+      const double r2 = (dx * dx + dy * dy) / (far_x * far_x + far_y * far_y);
+      falloff(y, x) = cv::Vec3f::all(static_cast<float>(std::max(0.0, 1 - loss * r2)));
+    }
+  }
+  return falloff;
+}
+
+}  // namespace
 
 Photographer::Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
                            std::uint64_t scenario_seed)
@@ -16,6 +36,7 @@ Photographer::Photographer(const scenario::Image& image, const Optics& camera, d
       rate_hz_(rate_hz),
       illumination_(image, camera),
       sensor_(image, scenario_seed) {
+  if (image.vignetting > 0) falloff_ = falloff_of(image.vignetting, camera.lens());
   if (image.rain)
     rain_.emplace(*image.rain, image.exposure_s, camera.lens().pinhole(), scenario_seed);
 }
@@ -28,6 +49,7 @@ void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) 
     rain_->look_through_drops(light, k / rate_hz_);
   }
   if (blur_px_ > 0) cv::GaussianBlur(light, light, {}, blur_px_);
+  if (!falloff_.empty()) cv::multiply(light, falloff_, light);
   sensor_.expose(light, k);
   to_codes(light, picture);
   if (jpeg_quality_) {

@@ -1,7 +1,8 @@
 /// \file
 /// Turns a rendered image into the camera's, by the scenario's section `image`: light and air,
-/// rain, blur and the sensor, then compression. The truth is unchanged: a corner on a raindrop
-/// counts as the surface behind the drop. A lens bends the scene, but no streaks and drops.
+/// rain, blur, vignetting and the sensor, then compression. The truth is unchanged: a corner on a
+/// raindrop counts as the surface behind the drop. A lens bends the scene, but no streaks and
+/// drops.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,7 @@ class Photographer {
   double rate_hz_;
   Illumination illumination_;
   std::optional<Rain> rain_;
+  cv::Mat3f falloff_;  ///< of the lens's light; empty: none
   ImageSensor sensor_;
 };
 

@@ -1,6 +1,7 @@
 #include "sim/imu/imu_noise.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -27,6 +28,13 @@ Eigen::Vector3d normal3(RandomStream& stream) {
   return v;
 }
 
+Eigen::Vector3d read_out(Eigen::Vector3d value, const std::optional<double>& range,
+                         const std::optional<double>& resolution) {
+  if (range) value = value.cwiseMax(-*range).cwiseMin(*range);
+  if (resolution) value = *resolution * (value / *resolution).array().round();
+  return value;
+}
+
 }  // namespace
 
 Noise3::Noise3(double density, double random_walk, double turn_on_bias, double rate_hz,
@@ -45,15 +53,28 @@ Eigen::Vector3d Noise3::corrupt(const Eigen::Vector3d& truth) {
   return truth + bias_ + white_step_ * normal3(white_);
 }
 
-ImuNoiseModel::ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
-                             std::string_view name)
-    : gyro_(noise.gyroscope_noise_density, noise.gyroscope_random_walk,
-            noise.gyroscope_turn_on_bias_radps, rate_hz, seed, stream_name(name, "gyro")),
-      accel_(noise.accelerometer_noise_density, noise.accelerometer_random_walk,
-             noise.accelerometer_turn_on_bias_mps2, rate_hz, seed, stream_name(name, "accel")) {}
+ImuNoiseModel::ImuNoiseModel(const scenario::Imu& imu, std::uint64_t seed, std::string_view name)
+    : gyroscopes_(imu.gyroscopes),
+      accelerometers_(imu.accelerometers),
+      gyro_(imu.noise.gyroscope_noise_density, imu.noise.gyroscope_random_walk,
+            imu.noise.gyroscope_turn_on_bias_radps, imu.rate_hz, seed, stream_name(name, "gyro")),
+      accel_(imu.noise.accelerometer_noise_density, imu.noise.accelerometer_random_walk,
+             imu.noise.accelerometer_turn_on_bias_mps2, imu.rate_hz, seed,
+             stream_name(name, "accel")) {}
 
 ImuSample ImuNoiseModel::corrupt(const ImuSample& truth) {
-  return {truth.t_ns, gyro_.corrupt(truth.gyro_radps), accel_.corrupt(truth.accel_mps2)};
+  const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = gyroscopes_;
+  ImuSample sample = truth;
+  if (gyroscopes_ != scenario::Gyroscopes{}) {  // an identity would change the sign of a zero
+    sample.gyro_radps = M * (C_gyro_i * truth.gyro_radps) + A * (C_gyro_i * truth.accel_mps2);
+  }
+  if (accelerometers_ != scenario::Accelerometers{}) {
+    sample.accel_mps2 = accelerometers_.M * truth.accel_mps2;
+  }
+  sample.gyro_radps = read_out(gyro_.corrupt(sample.gyro_radps), range_radps, resolution_radps);
+  sample.accel_mps2 = read_out(accel_.corrupt(sample.accel_mps2), accelerometers_.range_mps2,
+                               accelerometers_.resolution_mps2);
+  return sample;
 }
 
 OdometryNoiseModel::OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,

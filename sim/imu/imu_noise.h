@@ -10,6 +10,9 @@
 /// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have separate random
 /// streams: changing one parameter leaves the numbers drawn for the others unchanged.
 ///
+/// `true_k` is the reading with the errors of `scenario::Gyroscopes` and `Accelerometers`; ranges
+/// and resolutions apply to the sum.
+///
 /// Wheel odometry: a scale drawn once per run, and white noise in x and y of B and in the yaw rate.
 #pragma once
 
@@ -48,10 +51,10 @@ class ImuNoiseModel {
  public:
   /// \param name of the IMU; two names in one run draw different noise.
   /// \throws std::invalid_argument as for `Noise3`.
-  ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
-                std::string_view name = "imu0");
+  ImuNoiseModel(const scenario::Imu& imu, std::uint64_t seed, std::string_view name = "imu0");
 
-  /// Samples must be passed in order, without omission, 1 / rate apart.
+  /// \param truth in the IMU's frame. Samples must be passed in order, without omission, 1 / rate
+  /// apart.
   ImuSample corrupt(const ImuSample& truth);
 
   /// \name Biases of the last corrupted sample.
@@ -61,6 +64,8 @@ class ImuNoiseModel {
   ///@}
 
  private:
+  scenario::Gyroscopes gyroscopes_;
+  scenario::Accelerometers accelerometers_;
   Noise3 gyro_;
   Noise3 accel_;
 };

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "sim/rotation.h"
 #include "sim/scene/fragment.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/model.h"
@@ -132,11 +133,7 @@ Eigen::Matrix3d mujoco_camera_axes(const Eigen::Vector3d& rpy) {
   forward.col(0) = -Eigen::Vector3d::UnitY();
   forward.col(1) = Eigen::Vector3d::UnitZ();
   forward.col(2) = -Eigen::Vector3d::UnitX();
-  return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-             .toRotationMatrix() *
-         forward;
+  return rotation_of_rpy(rpy) * forward;
 }
 
 void add_camera(mjsBody& base, const scenario::Camera& camera) {

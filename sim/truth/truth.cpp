@@ -1,5 +1,6 @@
 #include "sim/truth/truth.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -91,14 +92,20 @@ double distance_to(const Pinhole& camera, const StaticSegment& segment, double m
                              camera.project(segment.at(last)));
 }
 
-CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vector<char>& moves,
-                  const Pose& T_NC, const Eigen::Vector2f& corner, double min_depth_m,
-                  const Optics* picture) {
+Pose between(const Pose& a, const Pose& b, double share) {
+  if (share == 0) return a;
+  const Eigen::Quaterniond from(a.R), to(b.R);
+  return {from.slerp(share, to).toRotationMatrix(), (1 - share) * a.p + share * b.p};
+}
+
+CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Way& way,
+                  const Eigen::Vector2f& corner, double min_depth_m, const Optics* picture) {
   CornerTruth result;
+  const std::vector<char>& moves = way.moves();
+  const bool is_bent = picture && !picture->is_pinhole();
   const Eigen::Vector2f place =
-      picture && !picture->is_pinhole()
-          ? picture->project(camera.back_project(corner.cast<double>(), 1)).cast<float>()
-          : corner;
+      is_bent ? picture->project(camera.back_project(corner.cast<double>(), 1)).cast<float>()
+              : corner;
   const Surface surface = nearest_3x3(truth, place);
   if (surface.object < 0) return result;
   result.object = surface.object;
@@ -106,12 +113,17 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vec
 
   const Eigen::Vector2d x = corner.cast<double>();
   const Eigen::Vector3d p_C = camera.back_project(x, result.depth_m);
-  const Eigen::Vector3d p_W = truth.now.T_WC * p_C;
   const std::size_t id = static_cast<std::size_t>(surface.object);
-  const Pose T_NW = truth.next.T_WC.inverse();
-  const Eigen::Vector3d fixed_N = T_NW * p_W;
+  const double row = place.y();
+  const auto row_of = [&](const Eigen::Vector3d& p_N) {
+    return is_bent ? picture->project(p_N).y() : camera.project(p_N).y();
+  };
+  const Pose T_WC = way.T_WC(row);
+  const Eigen::Vector3d p_W = T_WC * p_C;
+  const double fixed_row = way.next_row(0, p_W, row, row_of);
+  const Eigen::Vector3d fixed_N = way.in_next(0, p_W, row, fixed_row);
   const Eigen::Vector3d carried_N =
-      moves.at(id) ? T_NW * (truth.next.T_WO[id] * (truth.now.T_WO[id].inverse() * p_W)) : fixed_N;
+      moves.at(id) ? way.in_next(id, p_W, row, way.next_row(id, p_W, row, row_of)) : fixed_N;
 
   const auto motion = [&](const Eigen::Vector3d& p_N) -> Eigen::Vector2d {
     if (p_N.z() < kInFront * result.depth_m) {
@@ -127,6 +139,7 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vec
     result.outline = is_beside_mover(truth, moves, place);
   } else if ((result.motion_px - result.static_motion_px).norm() >= kDistinctPx) {
     result.label = Label::rebel;
+    const Pose T_NC = way.in_next(0, T_WC, row, fixed_row);
     const StaticSegment segment{T_NC.R * camera.back_project(x, 1), T_NC.p};
     const double distance = distance_to(camera, segment, 1 / min_depth_m, x + result.motion_px);
     result.radial = distance <= kDistinctPx;
@@ -144,19 +157,51 @@ bool moved(const Pose& now, const Pose& next) {
          (next.R - now.R).norm() > std::sqrt(2.0) * kStill_rad;
 }
 
+Way::Way(const FrameTruth& truth, int height_px) : rolls_(!truth.now_rows.at.empty()) {
+  const auto at_rows = [&](const Readout& readout, const Pose& now, auto&& pose_of) -> Poses {
+    if (readout.at.empty()) return {now};
+    Poses poses;
+    const double last = static_cast<double>(readout.at.size() - 1);
+    for (int row = 0; row <= height_px; ++row) {
+      const double step = std::clamp((row - readout.first_row) / readout.rows_per_step, 0.0, last);
+      const double before = std::min(std::floor(step), last - 1);
+      const Pose& a = pose_of(readout.at[static_cast<std::size_t>(before)]);
+      const Pose& b = pose_of(readout.at[static_cast<std::size_t>(before) + 1]);
+      poses.push_back(between(a, b, step - before));
+    }
+    return poses;
+  };
+  const auto camera = [](const Snapshot& s) -> const Pose& { return s.T_WC; };
+  T_WC_ = at_rows(truth.now_rows, truth.now.T_WC, camera);
+  next_T_WC_ = at_rows(truth.next_rows, truth.next.T_WC, camera);
+  for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id) {
+    moves_.push_back(moved(truth.now.T_WO[id], truth.next.T_WO.at(id)));
+    const auto object = [&](const Snapshot& s) -> const Pose& { return s.T_WO[id]; };
+    const Readout still;
+    T_WO_.push_back(at_rows(moves(id) ? truth.now_rows : still, truth.now.T_WO[id], object));
+    next_T_WO_.push_back(at_rows(moves(id) ? truth.next_rows : still, truth.next.T_WO[id], object));
+  }
+}
+
+Pose Way::pose_at(const Poses& poses, double row) {
+  if (poses.size() == 1) return poses.front();
+  const double last = static_cast<double>(poses.size() - 1);
+  const double within = row >= 0 ? std::min(row, last) : 0;  // 0 for NaN
+  const double before = std::min(std::floor(within), last - 1);
+  return between(poses[static_cast<std::size_t>(before)],
+                 poses[static_cast<std::size_t>(before) + 1], within - before);
+}
+
 std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& truth,
                                        std::span<const Eigen::Vector2f> corners_px,
                                        double min_depth_m, const Optics* picture) {
   if (!(min_depth_m > 0))
     throw std::invalid_argument("the nearest depth of truth must be positive");
-  const Pose T_NC = truth.next.T_WC.inverse() * truth.now.T_WC;
-  std::vector<char> moves;
-  for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id)
-    moves.push_back(moved(truth.now.T_WO[id], truth.next.T_WO.at(id)));
+  const Way way(truth, truth.depth_m.rows);
   std::vector<CornerTruth> labels;
   labels.reserve(corners_px.size());
   for (const Eigen::Vector2f& corner : corners_px) {
-    labels.push_back(label(camera, truth, moves, T_NC, corner, min_depth_m, picture));
+    labels.push_back(label(camera, truth, way, corner, min_depth_m, picture));
   }
   return labels;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <span>
 #include <string>
@@ -28,6 +29,13 @@ struct Snapshot {
   std::vector<Pose> T_WO;
 };
 
+/// The poses at the times of a frame's rows, for a rolling shutter.
+struct Readout {
+  std::vector<Snapshot> at;  ///< at equal steps; empty: all rows show one time
+  double first_row = 0;      ///< of the first of them
+  double rows_per_step = 0;
+};
+
 /// The truth of frame k. Depth and object ids come from a render without multisampling.
 struct FrameTruth {
   /// z-depth in metres; +inf for the sky.
@@ -37,8 +45,60 @@ struct FrameTruth {
   cv::Mat1i object;
   Snapshot now;                                         ///< at frame k
   Snapshot next;                                        ///< at frame k+1, also for the last frame
+  Readout now_rows, next_rows;                          ///< of a rolling shutter
   Eigen::Vector3d v_WC_mps = Eigen::Vector3d::Zero();   ///< velocity of the camera, in W
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();  ///< body rate of the camera, in C
+};
+
+/// The way of points from the rows of frame k to the rows of frame k+1, whose times differ with a
+/// rolling shutter. Between the poses of a `Readout` positions and rotations are interpolated.
+class Way {
+ public:
+  /// \param height_px of the picture.
+  Way(const FrameTruth& truth, int height_px);
+
+  /// Whether a body moves from k to k+1.
+  bool moves(std::size_t object) const { return moves_.at(object) != 0; }
+  const std::vector<char>& moves() const { return moves_; }
+  /// \name Poses at the time of a row of frame k.
+  ///@{
+  Pose T_WC(double row) const { return pose_at(T_WC_, row); }
+  Pose T_WO(std::size_t object, double row) const { return pose_at(T_WO_.at(object), row); }
+  ///@}
+  /// In C of frame k+1, at the time of its row `next_row`, a point that was seen in `row`, or a
+  /// frame of points. \param in_W at the time of `row`. \param object that carries it; 0: it is
+  /// fixed in W.
+  template <class PointOrPose>
+  PointOrPose in_next(std::size_t object, const PointOrPose& in_W, double row,
+                      double next_row) const {
+    const Pose T_NW = pose_at(next_T_WC_, next_row).inverse();
+    if (!moves(object)) return T_NW * in_W;
+    return T_NW * (pose_at(next_T_WO_[object], next_row) * (T_WO(object, row).inverse() * in_W));
+  }
+  /// The row in which frame k+1 shows a point of W that was seen in `row`: the one at whose time
+  /// the point is seen there. \param row_of gives the row of a point in C.
+  template <class RowOf>
+  double next_row(std::size_t object, const Eigen::Vector3d& p_W, double row,
+                  RowOf&& row_of) const {
+    double there = row;
+    for (int i = 0; i < (rolls_ ? kMostSteps : 0); ++i) {
+      const double seen = row_of(in_next(object, p_W, row, there));
+      if (!(std::abs(seen - there) > kExact_px)) break;  // or there is none
+      there = seen;
+    }
+    return there;
+  }
+
+ private:
+  static constexpr int kMostSteps = 20;
+  static constexpr double kExact_px = 1e-7;
+  using Poses = std::vector<Pose>;  ///< at the times of rows 0, 1, ... h; one: at all times
+  static Pose pose_at(const Poses& poses, double row);
+
+  bool rolls_;
+  std::vector<char> moves_;
+  Poses T_WC_, next_T_WC_;
+  std::vector<Poses> T_WO_, next_T_WO_;  ///< by object
 };
 
 enum class Label {

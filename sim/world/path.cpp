@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/rotation.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -24,12 +26,7 @@ Vector3d log_of(const Matrix3d& R) {
 }
 
 Pose pose_of(const scenario::PathPose& pose) {
-  const Vector3d& rpy = pose.rpy_rad;
-  return {(Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
-           Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
-           Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX()))
-              .toRotationMatrix(),
-          pose.position_m};
+  return {rotation_of_rpy(pose.rpy_rad), pose.position_m};
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "sim/pictures/picture_file.h"
+#include "sim/rotation.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
 #include "sim/scene/refusal.h"
@@ -169,6 +170,19 @@ bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
   });
 }
 
+/// \param visit is called with the beginning and the size of each array.
+template <class Visit>
+void visit_poses(const mjModel& m, mjData& d, Visit&& visit) {
+  visit(d.xpos, 3 * m.nbody);
+  visit(d.xmat, 9 * m.nbody);
+  visit(d.geom_xpos, 3 * m.ngeom);
+  visit(d.geom_xmat, 9 * m.ngeom);
+  visit(d.cam_xpos, 3 * m.ncam);
+  visit(d.cam_xmat, 9 * m.ncam);
+  visit(d.light_xpos, 3 * m.nlight);
+  visit(d.light_xdir, 3 * m.nlight);
+}
+
 }  // namespace
 
 std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
@@ -202,7 +216,7 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
     : scenario_(scenario),
       composed_(std::move(loaded.composed)),
       model_(std::move(loaded.model)),
-      imu_noise_(scenario.imu.noise, scenario.imu.rate_hz, scenario.seed),
+      imu_noise_(scenario.imu, scenario.seed),
       odometry_noise_(scenario.odometry, scenario.seed),
       camera_(model_.id(mjOBJ_CAMERA, kCamera)),
       base_(model_.id(mjOBJ_BODY, kEgoBody)),
@@ -215,6 +229,7 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
   find_objects();
   guarded([&] {
     mj_kinematics(&model_.m(), &model_.d());
+    place_imu();
     find_actors();
     rover_->start(model_);
     mj_kinematics(&model_.m(), &model_.d());
@@ -278,6 +293,21 @@ void World::find_objects() {
                                body));
     }
   }
+}
+
+void World::place_imu() {
+  const scenario::Imu& imu = scenario_.imu;
+  if (!imu.position_m && !imu.rpy_rad) return;
+  Pose T_BS = T_WB().inverse() * T_WS();
+  if (imu.position_m) T_BS.p = *imu.position_m;
+  if (imu.rpy_rad) T_BS.R = rotation_of_rpy(*imu.rpy_rad);
+  mjModel& m = model_.m();
+  // of the body that the site is fixed in, which is the base or fixed to it
+  const Pose T_PS = model_.body_pose(m.site_bodyid[imu_site_]).inverse() * T_WB() * T_BS;
+  const Eigen::Quaterniond q(T_PS.R);
+  Eigen::Map<Eigen::Vector3d>(m.site_pos + 3 * imu_site_) = T_PS.p;
+  Eigen::Map<Eigen::Vector4d>(m.site_quat + 4 * imu_site_) << q.w(), q.x(), q.y(), q.z();
+  m.site_sameframe[imu_site_] = 0;
 }
 
 void World::find_actors() {
@@ -560,6 +590,44 @@ Snapshot World::snapshot() const {
   s.T_WO.reserve(object_bodies_.size());
   for (const int body : object_bodies_) s.T_WO.push_back(model_.body_pose(body));
   return s;
+}
+
+Stage World::stage() {
+  Stage stage;
+  visit_poses(model_.m(), model_.d(), [&](const mjtNum* begin, std::int64_t size) {
+    stage.numbers.insert(stage.numbers.end(), begin, begin + size);
+  });
+  return stage;
+}
+
+Stage World::stage_before(std::int64_t t_ns) {
+  const mjModel& m = model_.m();
+  mjData& d = model_.d();
+  const std::vector<mjtNum> qpos(d.qpos, d.qpos + m.nq);
+  mj_integratePos(&m, d.qpos, d.qvel, 1e-9 * static_cast<double>(t_ns));
+  mj_kinematics(&m, &d);
+  mj_camlight(&m, &d);
+  Stage before = stage();
+  std::ranges::copy(qpos, d.qpos);
+  mj_kinematics(&m, &d);
+  mj_camlight(&m, &d);
+  return before;
+}
+
+void World::show(const Stage& stage) {
+  auto from = stage.numbers.begin();
+  visit_poses(model_.m(), model_.d(), [&](mjtNum* begin, std::int64_t size) {
+    std::copy_n(from, size, begin);
+    from += size;
+  });
+}
+
+Snapshot World::snapshot_of(const Stage& stage) {
+  const Stage present = this->stage();
+  show(stage);
+  Snapshot snapshot = this->snapshot();
+  show(present);
+  return snapshot;
 }
 
 Pose World::T_WB() const {

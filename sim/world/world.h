@@ -36,6 +36,11 @@ enum class WrongStart {
   told,     ///< `World::wrong_at_start` lists it, for previews
 };
 
+/// The poses that a picture shows: of bodies, geoms, cameras and lights, in MuJoCo's layout.
+struct Stage {
+  std::vector<mjtNum> numbers;
+};
+
 class World {
  public:
   /// Loads the world and sets it to t = 0.
@@ -81,6 +86,15 @@ class World {
   /// Whether the rover's origin stays on the ground.
   bool is_on_ground() const { return !scenario_.ego.is_carried(); }
   Snapshot snapshot() const;
+  /// The poses of the last forward pass.
+  Stage stage();
+  /// The poses at a time before 0, if rover and free bodies had moved with their present velocities
+  /// from then on. Call it at t = 0.
+  Stage stage_before(std::int64_t t_ns);
+  /// Shows poses of another time to a renderer, until poses of the present are shown or
+  /// `advance_to` is called. It changes no state of the physics.
+  void show(const Stage& stage);
+  Snapshot snapshot_of(const Stage& stage);
   Pose T_WB() const;
   Pose T_WS() const;
   Eigen::Vector3d v_WB_mps() const;
@@ -109,6 +123,7 @@ class World {
   World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong_start);
   void set_options();
   void find_objects();
+  void place_imu();
   void find_actors();
   void begin_watch(WrongStart wrong_start);
   void note_looks(const Drawables& drawables);

@@ -156,9 +156,32 @@ INSTANTIATE_TEST_SUITE_P(
               "4: odometry.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("KeyOfACalibration", "camera: {fx: 458}\n",
               "4: unknown key 'fx'; give camera.focal: [fx, fy]"),
-        added("SensorThatIsNot", "camera: {rolling_shutter: 20 ms}\n",
-              "4: unknown key 'rolling_shutter'; the simulator has none of it "
+        added("SensorThatIsNot", "camera: {stereo: true}\n",
+              "4: unknown key 'stereo'; the simulator has none of it "
               "(scenarios/README.md, 'What the simulator has, and has not'); remove it"),
+        added("KeyOfAnotherSimulator", "camera: {readout_time: 20 ms}\n",
+              "4: unknown key 'readout_time'; give camera.rolling_shutter"),
+        added("KeyOfAnotherMap", "accelerometer_noise_density: 2e-3\n",
+              "4: unknown key 'accelerometer_noise_density'; give imu.accelerometer_noise_density"),
+        added("ShutterLongerThanAFrame",
+              "camera:\n  rate: 20\n  rolling_shutter: 40 ms\n  exposure: 11 ms\n",
+              "6: camera.rolling_shutter and exposure together take more than the 0.05 s from one "
+              "frame to the next; make it shorter, or the rate lower"),
+        added("ExposureLongerThanAFrame", "camera: {rate: 20, exposure: 60 ms}\n",
+              "4: camera.exposure takes more than the 0.05 s from one frame to the next; make it "
+              "shorter, or the rate lower"),
+        added("ClockFramesAhead", "camera: {rate: 10, told: {time_offset_error: 0.2 s}}\n",
+              "4: camera.told.time_offset_error is more than the 0.1 s from one frame to the next; "
+              "make it smaller"),
+        added(
+            "ScalesAboveTheDiagonal",
+            "imu: {accelerometers: {M: [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]}}\n",
+            "4: imu.accelerometers.M is not lower triangular with a diagonal above 0, as Kalibr's "
+            "is; give [[x, 0, 0], [yx, y, 0], [zx, zy, z]], with 1 for an exact scale"),
+        added("GyroscopesThatStretch",
+              "imu: {gyroscopes: {C_gyro_i: [[2, 0, 0], [0, 1, 0], [0, 0, 1]]}}\n",
+              "4: imu.gyroscopes.C_gyro_i is no rotation; give three rows of one, as Kalibr writes "
+              "them"),
         added("FourCoefficients", "camera: {distortion: [0.1, 0, 0, 0]}\n",
               "4: camera.distortion is a list of 4; give a list of 5, as in [0, 0, 0, 0, 0]"),
         added("MountOfThreeRows", "camera: {T_BC: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}\n",

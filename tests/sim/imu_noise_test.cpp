@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -26,9 +27,16 @@ struct Recording {
   Series accel;
 };
 
+scenario::Imu imu_of(const ImuNoise& noise, double rate_hz) {
+  scenario::Imu imu;
+  imu.noise = noise;
+  imu.rate_hz = rate_hz;
+  return imu;
+}
+
 /// Readings of the model for an IMU at rest with zero input.
 Recording record(const ImuNoise& noise, double rate_hz, int samples, std::uint64_t seed = 1) {
-  ImuNoiseModel model(noise, rate_hz, seed);
+  ImuNoiseModel model(imu_of(noise, rate_hz), seed);
   Recording recording;
   for (int i = 0; i < samples; ++i) {
     const ImuSample sample = model.corrupt({});
@@ -152,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(OfKnownImus, ImuNoisePreset,
                          [](const auto& test) { return test.param.first; });
 
 TEST(ImuNoise, IdealChangesNothing) {
-  ImuNoiseModel model(scenario::imu_preset("ideal").value(), 200, 1);
+  ImuNoiseModel model(imu_of(scenario::imu_preset("ideal").value(), 200), 1);
   const ImuSample truth{5'000'000, {0.1, -0.2, 0.3}, {1e-9, -9.81, 1e3}};
   for (int i = 0; i < 1000; ++i) {
     const ImuSample sample = model.corrupt(truth);
@@ -162,11 +170,51 @@ TEST(ImuNoise, IdealChangesNothing) {
   }
 }
 
+// Kalibr's model by hand, for one axis after the other.
+TEST(ImuNoise, ScaleAndMisalignmentAreThoseOfKalibrsMatrices) {
+  scenario::Imu imu = imu_of({}, 200);
+  imu.gyroscopes.M << 1.01, 0, 0, 0.002, 0.99, 0, -0.003, 0.004, 1.02;
+  imu.gyroscopes.C_gyro_i << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // a quarter turn about z
+  imu.gyroscopes.A << 1e-4, 0, 0, 0, 0, 2e-4, 0, 0, 0;
+  imu.accelerometers.M << 0.98, 0, 0, 0.01, 1.03, 0, 0.02, -0.01, 1;
+  const ImuSample sample = ImuNoiseModel(imu, 1).corrupt({0, {0.1, 0.2, 0.3}, {1, 2, 9}});
+  // in the gyroscopes' frame the rate is (-0.2, 0.1, 0.3), the specific force (-2, 1, 9)
+  const Eigen::Vector3d gyro(1.01 * -0.2 + 1e-4 * -2, 0.002 * -0.2 + 0.99 * 0.1 + 2e-4 * 9,
+                             -0.003 * -0.2 + 0.004 * 0.1 + 1.02 * 0.3);
+  const Eigen::Vector3d accel(0.98 * 1, 0.01 * 1 + 1.03 * 2, 0.02 * 1 - 0.01 * 2 + 9);
+  EXPECT_LT((sample.gyro_radps - gyro).norm(), 1e-15);
+  EXPECT_LT((sample.accel_mps2 - accel).norm(), 1e-14);
+}
+
+TEST(ImuNoise, ReadingsStayInTheRangeAndAreMultiplesOfTheResolution) {
+  scenario::Imu imu = imu_of(scenario::imu_preset("esim").value(), 200);
+  const Recording exact = record(imu.noise, 200, 1000);
+  imu.gyroscopes.range_radps = 0.0025;  // about the deviation of the noise
+  imu.gyroscopes.resolution_radps = 0.0005;
+  imu.accelerometers.range_mps2 = 0.02;
+  imu.accelerometers.resolution_mps2 = 0.004;
+  ImuNoiseModel model(imu, 1);
+  int saturated = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const ImuSample sample = model.corrupt({});
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gyro = std::clamp(exact.gyro[axis][i], -0.0025, 0.0025);
+      const double accel = std::clamp(exact.accel[axis][i], -0.02, 0.02);
+      EXPECT_NEAR(sample.gyro_radps[axis], gyro, 0.0005 / 2 + 1e-15);
+      EXPECT_NEAR(sample.accel_mps2[axis], accel, 0.004 / 2 + 1e-15);
+      EXPECT_NEAR(std::remainder(sample.gyro_radps[axis], 0.0005), 0, 1e-15);
+      EXPECT_NEAR(std::remainder(sample.accel_mps2[axis], 0.004), 0, 1e-14);
+      saturated += gyro != exact.gyro[axis][i];
+    }
+  }
+  EXPECT_GT(saturated, 300);  // of 3000: a third lies beyond one deviation
+}
+
 TEST(ImuNoise, TheBiasItTellsIsTheOneInTheSample) {
   ImuNoise noise;  // no white noise: only the bias is added
   noise.gyroscope_random_walk = 1e-3;
   noise.accelerometer_random_walk = 1e-2;
-  ImuNoiseModel model(noise, 100, 3);
+  ImuNoiseModel model(imu_of(noise, 100), 3);
   for (int i = 0; i < 100; ++i) {
     const ImuSample sample = model.corrupt({});
     EXPECT_EQ(sample.gyro_radps, model.gyro_bias_radps());
@@ -189,8 +237,8 @@ TEST(ImuNoise, OneFigureLeavesTheNoiseOfTheOthersAsItWas) {
 TEST(ImuNoise, AnotherSensorLeavesTheNoiseOfTheFirstAsItWas) {
   const ImuNoise noise = scenario::imu_preset("tumvi").value();
   const Recording alone = record(noise, 200, 100);
-  ImuNoiseModel first(noise, 200, 1);
-  ImuNoiseModel second(noise, 200, 1, "imu1");
+  ImuNoiseModel first(imu_of(noise, 200), 1);
+  ImuNoiseModel second(imu_of(noise, 200), 1, "imu1");
   OdometryNoiseModel wheels({.enabled = true}, 1);
   for (int i = 0; i < 100; ++i) {
     wheels.corrupt({});
@@ -212,13 +260,13 @@ TEST(ImuNoise, RepeatsWithItsSeedAndDiffersWithAnother) {
 
 TEST(ImuNoise, RefusesWhatNoSensorHas) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ImuNoiseModel({}, 0, 1), std::invalid_argument);
-  EXPECT_THROW(ImuNoiseModel({}, nan, 1), std::invalid_argument);
+  EXPECT_THROW(ImuNoiseModel(imu_of({}, 0), 1), std::invalid_argument);
+  EXPECT_THROW(ImuNoiseModel(imu_of({}, nan), 1), std::invalid_argument);
   ImuNoise noise;
   noise.accelerometer_noise_density = -1e-3;
-  EXPECT_THROW(ImuNoiseModel(noise, 200, 1), std::invalid_argument);
+  EXPECT_THROW(ImuNoiseModel(imu_of(noise, 200), 1), std::invalid_argument);
   noise.accelerometer_noise_density = nan;
-  EXPECT_THROW(ImuNoiseModel(noise, 200, 1), std::invalid_argument);
+  EXPECT_THROW(ImuNoiseModel(imu_of(noise, 200), 1), std::invalid_argument);
   EXPECT_THROW(OdometryNoiseModel({.noise_mps = -1}, 1), std::invalid_argument);
   EXPECT_THROW(OdometryNoiseModel({.yaw_noise_radps = nan}, 1), std::invalid_argument);
   EXPECT_THROW(OdometryNoiseModel({.scale_error = nan}, 1), std::invalid_argument);
@@ -277,7 +325,7 @@ TEST(ImuNoise, TheTurnOnBiasIsDrawnOnceAndHasTheDeviationAskedFor) {
   double gyro = 0, accel = 0;
   constexpr int kRuns = 1000;
   for (int seed = 1; seed <= kRuns; ++seed) {
-    ImuNoiseModel model(noise, 200, static_cast<std::uint64_t>(seed));
+    ImuNoiseModel model(imu_of(noise, 200), static_cast<std::uint64_t>(seed));
     const ImuSample first = model.corrupt({});
     const ImuSample second = model.corrupt({});
     ASSERT_EQ(first.gyro_radps, second.gyro_radps);
@@ -292,9 +340,9 @@ TEST(ImuNoise, TheTurnOnBiasIsDrawnOnceAndHasTheDeviationAskedFor) {
 
 TEST(ImuNoise, ATurnOnBiasLeavesTheNoiseAroundItAsItWas) {
   ImuNoise noise{1e-3, 1e-4, 1e-2, 1e-3};
-  ImuNoiseModel plain(noise, 200, 7);
+  ImuNoiseModel plain(imu_of(noise, 200), 7);
   noise.gyroscope_turn_on_bias_radps = 0.1;
-  ImuNoiseModel biased(noise, 200, 7);
+  ImuNoiseModel biased(imu_of(noise, 200), 7);
   Eigen::Vector3d offset;
   for (int i = 0; i < 100; ++i) {
     const ImuSample a = plain.corrupt({}), b = biased.corrupt({});

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace lcs::bench {
 namespace {
@@ -54,6 +55,7 @@ EgoMotionFeed::EgoMotionFeed(const scenario::Scenario& scenario,
                              const sim::Calibration& calibration)
     : source_(scenario.ego_motion),
       estimator_(mounting_of(calibration), noise_of(scenario), start_of(calibration)),
+      told_later_ns_(std::llround(1e9 * scenario.camera.told.time_offset_error_s)),
       on_ground_(calibration.on_ground),
       ground_W_m_(calibration.T_WB_start.p.z()) {}
 
@@ -90,8 +92,9 @@ EgoMotion EgoMotionFeed::estimated(const sim::Observation& observation) {
     add_odometry_before(sample.t_ns);  // at equal times the IMU comes first
     estimator_.add_imu(sample.t_ns, sample.gyro_radps, sample.accel_mps2);
   }
-  add_odometry_before(observation.t_ns + 1);
-  return estimator_.frame(observation.t_ns);
+  const std::int64_t told_ns = observation.t_ns + told_later_ns_;
+  add_odometry_before(told_ns + 1);
+  return estimator_.frame(told_ns);
 }
 
 }  // namespace lcs::bench

@@ -39,6 +39,7 @@ class EgoMotionFeed {
     sim::Pose T_WC;
   };
   std::optional<Frame> last_;
+  std::int64_t told_later_ns_;  ///< than the true times of frames
   bool on_ground_;
   double ground_W_m_;  ///< height of the ground in W
 };

@@ -144,8 +144,12 @@ std::string Reader::path_of(std::string_view key) const {
   return (path_.empty() ? "" : path_ + ".") + std::string(key);
 }
 
+bool Reader::knows(std::string_view key) const {
+  return std::find(known_.begin(), known_.end(), key) != known_.end();
+}
+
 const Value* Reader::find(std::string_view key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  if (!knows(key)) known_.emplace_back(key);
   const auto entry = std::find_if(map_.entries.begin(), map_.entries.end(),
                                   [&](const Entry& e) { return e.key == key; });
   if (entry == map_.entries.end()) return nullptr;
@@ -195,7 +199,7 @@ std::optional<std::size_t> Reader::choice(std::string_view key,
 
 void Reader::finish() const {
   for (const Entry& entry : map_.entries) {
-    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    if (knows(entry.key)) continue;
     throw Error(entry.where, "unknown key '" + entry.key + "'" +
                                  (path_.empty() ? std::string() : " in " + path_) + "; " +
                                  suggestion(entry.key, known_));

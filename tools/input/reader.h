@@ -68,6 +68,8 @@ class Reader {
 
   /// The value of a key, or null if absent.
   const Value* find(std::string_view key);
+  /// Whether a key was asked for, by `find` or another call.
+  bool knows(std::string_view key) const;
   /// As `find`, but `finish` throws if the key is absent.
   const Value* require(std::string_view key);
   /// The key among these that is given, if any. \throws Error if two are given; it names first the

@@ -51,7 +51,10 @@ scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, 
   s.ego.waypoints.clear();
   s.ego.path.clear();
   s.camera.rate_hz = rate_hz;
+  s.camera.rolling_shutter_s = s.camera.exposure_s = s.camera.told.time_offset_error_s = 0;
   s.imu.noise = {};
+  s.imu.gyroscopes = {};
+  s.imu.accelerometers = {};
   s.imu.gaps.clear();
   s.odometry.enabled = true;
   s.odometry.noise_mps = s.odometry.yaw_noise_radps = s.odometry.scale_error = 0;
@@ -82,7 +85,7 @@ scenario::Scenario bumpy_drive(const StudyConfig& config, double duration_s, dou
 
 sim::Drive with_noise(const sim::Drive& ideal, const scenario::Scenario& noisy) {
   sim::Drive drive = ideal;
-  sim::ImuNoiseModel imu(noisy.imu.noise, noisy.imu.rate_hz, noisy.seed);
+  sim::ImuNoiseModel imu(noisy.imu, noisy.seed);
   sim::OdometryNoiseModel odometry(noisy.odometry, noisy.seed);
   for (sim::Observation& frame : drive.frames) {
     for (sim::ImuSample& sample : frame.imu) sample = imu.corrupt(sample);

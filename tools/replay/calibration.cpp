@@ -27,6 +27,7 @@ constexpr input::FileKind kCalibrationFile{
 // Generous limits, which exclude impossible cameras and IMUs only.
 constexpr Quantity kAny{Dimension::number, {-1e7, 1e7}};
 constexpr Quantity kRate{Dimension::frequency, {0, 100000, true}};
+constexpr Quantity kTimeShift{Dimension::time, {-1000, 1000}};
 constexpr Quantity kNoise{Dimension::number, {0, 1000}};
 constexpr int kMostPixels = 65536;
 
@@ -193,6 +194,7 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   if (const auto T_CS = keys.pose({"T_cam_imu"}); T_CS && !calibration.T_BS) {
     calibration.T_BS = T_CS->inverse();
   }
+  calibration.time_offset_s = keys.number({"timeshift_cam_imu"}, kTimeShift);
   const Value* intrinsics = keys.any_of({"intrinsics"});
   if (!intrinsics) return;
   std::vector<double> numbers = numbers_in(*intrinsics, keys.path());

@@ -183,6 +183,7 @@ void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   }
   recorded.settings.odometry.enabled = !readings.odometry.empty();
   take_imu_noise(asked, recorded);
+  take_time_offset(asked, recorded);
   // Pictures without a clock begin at the first reading.
   const std::int64_t first_ns = readings.imu.front().t_ns;
   const std::int64_t zero_ns = recorded.has_own_clock ? first_ns : 0;
@@ -295,6 +296,15 @@ std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures)
 }
 
 }  // namespace
+
+void take_time_offset(const scenario::Recorded& asked, Recorded& recorded) {
+  std::optional<double> offset_s = asked.time_offset_s;
+  if (!offset_s && asked.calibration) {
+    offset_s = read_calibration(*asked.calibration, asked.camera).time_offset_s;
+  }
+  const std::int64_t offset_ns = std::llround(1e9 * offset_s.value_or(0));
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns += offset_ns;
+}
 
 void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
   PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);

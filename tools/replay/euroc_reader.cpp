@@ -207,8 +207,9 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
   const std::int64_t epoch_ns = exact.start_ns;
   for (sim::ImuSample& sample : readings.imu) sample.t_ns -= epoch_ns;
   for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= epoch_ns;
-  for (SensorReadings::CameraPose& pose : readings.poses) pose.t_ns -= epoch_ns;
-  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= epoch_ns;
+  const std::int64_t camera_ns = epoch_ns - std::llround(1e9 * exact.calibration.time_offset_s);
+  for (SensorReadings::CameraPose& pose : readings.poses) pose.t_ns -= camera_ns;
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= camera_ns;
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
 }
@@ -252,6 +253,7 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
     return;
   }
   const sim::Pose T_BC = *T_BC_known;
+  take_time_offset(asked, recorded);
   const std::vector<TrueState> truth = read_truth(mav, asked, recorded.tally);
   if (exact_motion) {
     if (truth.size() < 2) {

@@ -128,6 +128,10 @@ bool is_pictures(const std::filesystem::path& folder);
 Recorded read_pictures(const scenario::Recorded& asked, bool exact_motion);
 ///@}
 
+/// Sets the frames' times to those of the IMU's clock, by `asked.time_offset_s` or else the
+/// `timeshift_cam_imu` of `asked.calibration`.
+void take_time_offset(const scenario::Recorded& asked, Recorded& recorded);
+
 /// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
 void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded);
 

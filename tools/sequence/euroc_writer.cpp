@@ -61,7 +61,7 @@ class EurocWriter : public Writer {
     }
     const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
     output.rows["camera_pose"] =
-        fmt::format("{},{}\n", kEpoch_ns + o.t_ns, numbers(std::span(T_WC).first(12), ","));
+        fmt::format("{},{}\n", frame.stamp_ns, numbers(std::span(T_WC).first(12), ","));
   }
 
   std::vector<Document> documents() const override {
@@ -134,15 +134,14 @@ class EurocWriter : public Writer {
 
 }  // namespace
 
-std::string picture_path(std::int64_t t_ns) {
-  return fmt::format("mav0/cam0/data/{}.png", kEpoch_ns + t_ns);
+std::string picture_path(std::int64_t stamp_ns) {
+  return fmt::format("mav0/cam0/data/{}.png", stamp_ns);
 }
 
 void PictureWriter::write(const FrameView& frame, FrameOutput& output) const {
-  const std::string path = picture_path(frame.now.t_ns);
+  const std::string path = picture_path(frame.stamp_ns);
   output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
-  output.rows["pictures"] =
-      fmt::format("{},{}.png\n", kEpoch_ns + frame.now.t_ns, kEpoch_ns + frame.now.t_ns);
+  output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
 }
 
 std::vector<Document> PictureWriter::documents() const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -55,9 +56,11 @@ class FrameMaker {
     const cv::Mat1w mask = object_mask(now.truth);
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
     checks["outline_contrast_ratio"].add(check_outlines(now, mask));
+    const std::int64_t stamp_ns =
+        kEpoch_ns + now.t_ns - std::llround(1e9 * info_.scenario.camera.time_offset_s);
     FrameOutput output;
     for (const auto& writer : writers_) {
-      writer->write({now, mask, motion ? &*motion : nullptr}, output);
+      writer->write({now, stamp_ns, mask, motion ? &*motion : nullptr}, output);
     }
     journal_.add(now.index, output, checks);
   }
@@ -219,6 +222,15 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
     for (GrowingDocument& document : documents) document.add(record.rows);
   }
   std::vector<std::string> notes;
+  const scenario::Imu& imu = scenario.imu;
+  const bool has_errors =
+      imu.gyroscopes != scenario::Gyroscopes{} || imu.accelerometers != scenario::Accelerometers{};
+  if ((has_errors || scenario.camera.time_offset_s != 0) &&
+      std::ranges::find(options.formats, "kalibr") == options.formats.end()) {
+    notes.emplace_back(
+        "no calibration of these formats states the errors of the IMU or the time offset of the "
+        "camera; --formats with kalibr writes one that does");
+  }
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
     journal.write(document.path(), text);

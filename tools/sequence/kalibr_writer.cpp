@@ -1,4 +1,5 @@
-// Kalibr's YAML: the camera with its pose on the IMU, and the noise of the IMU.
+// Kalibr's YAML: the camera with its pose on the IMU and its time offset, and noise and errors of
+// the IMU.
 #include <fmt/format.h>
 
 #include "tools/sequence/pose_text.h"
@@ -31,11 +32,14 @@ class KalibrWriter : public Writer {
     return fmt::format(
         "cam0:\n  cam_overlaps: []\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
         "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
-        "  rostopic: /cam0/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: 0.0\n",
+        "  rostopic: /cam0/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}\n{}",
         numbers(coefficients, ", "),
         coefficients.size() > 4 ? "  # the fifth is k3, which Kalibr lacks" : "",
         lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan",
-        lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px, rows);
+        lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px, rows,
+        info_.calibration.time_offset_s == 0 ? "0.0"
+                                             : fmt::format("{}", info_.calibration.time_offset_s),
+        shutter());
   }
 
   std::string imu() const {
@@ -43,9 +47,45 @@ class KalibrWriter : public Writer {
     return fmt::format(
         "accelerometer_noise_density: {}\naccelerometer_random_walk: {}\n"
         "gyroscope_noise_density: {}\ngyroscope_random_walk: {}\n"
-        "rostopic: /imu0\nupdate_rate: {}\n",
+        "rostopic: /imu0\nupdate_rate: {}\n{}",
         noise.accelerometer_noise_density, noise.accelerometer_random_walk,
-        noise.gyroscope_noise_density, noise.gyroscope_random_walk, info_.scenario.imu.rate_hz);
+        noise.gyroscope_noise_density, noise.gyroscope_random_walk, info_.scenario.imu.rate_hz,
+        imu_errors());
+  }
+
+  /// Kalibr's camera-IMU calibration has no place for it.
+  std::string shutter() const {
+    const scenario::Camera& camera = info_.scenario.camera;
+    if (camera.rolling_shutter_s == 0) return "";
+    return fmt::format("  # rolling shutter: row y is {} s times y later than the first row\n",
+                       camera.rolling_shutter_s / camera.height_px);
+  }
+
+  /// As Kalibr writes the result of its model "scale-misalignment".
+  std::string imu_errors() const {
+    const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = info_.scenario.imu.gyroscopes;
+    const scenario::Accelerometers& accelerometers = info_.scenario.imu.accelerometers;
+    std::string text;
+    if (info_.scenario.imu.gyroscopes != scenario::Gyroscopes{} ||
+        accelerometers != scenario::Accelerometers{}) {
+      const auto matrix = [](const char* name, const Eigen::Matrix3d& m) {
+        std::string rows;
+        for (int row = 0; row < 3; ++row) {
+          rows += fmt::format("  - [{}, {}, {}]\n", m(row, 0), m(row, 1), m(row, 2));
+        }
+        return fmt::format("  {}:\n{}", name, rows);
+      };
+      text = "model: scale-misalignment\naccelerometers:\n" + matrix("M", accelerometers.M) +
+             "gyroscopes:\n" + matrix("A", A) + matrix("C_gyro_i", C_gyro_i) + matrix("M", M);
+    }
+    const auto limit = [&](const char* what, const std::optional<double>& value, const char* unit) {
+      if (value) text += fmt::format("# {}: {} {}; Kalibr has no key of it\n", what, *value, unit);
+    };
+    limit("range of the gyroscopes", range_radps, "rad/s");
+    limit("resolution of the gyroscopes", resolution_radps, "rad/s");
+    limit("range of the accelerometers", accelerometers.range_mps2, "m/s^2");
+    limit("resolution of the accelerometers", accelerometers.resolution_mps2, "m/s^2");
+    return text;
   }
 
   SequenceInfo info_;

@@ -32,7 +32,7 @@ class LandmarksWriter : public Writer {
     const std::vector<Eigen::Vector2f> corners = detector_.detect(grey);
     bench::FrameRecord seen;
     seen.index = o.index;
-    seen.t_ns = o.t_ns + kEpoch_ns;
+    seen.t_ns = frame.stamp_ns;
     seen.corners_px = corners;
     rectifier_.rectify(seen.corners_px);
     seen.corner_truth = labels_of(o.truth, seen.corners_px);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::sequence {
@@ -24,6 +26,34 @@ f = {} px in both directions and the same principal point; labels of corners hol
       lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px,
       is_fisheye ? "k1, k2, k3, k4" : "k1, k2, p1, p2, k3", numbers(lens.coefficients, ", "),
       is_fisheye ? "(fisheye)" : "(pinhole)", pinhole.focal_px);
+}
+
+std::string shutter_text(const scenario::Camera& camera) {
+  std::string text = "The picture is taken in an instant.";
+  if (camera.exposure_s > 0) text = "All rows are taken at once.";
+  if (camera.rolling_shutter_s > 0) {
+    text = fmt::format(
+        "The shutter rolls: row y shows the time of the frame plus y / {} of {} s.\n"
+        "Depth, masks, boxes, flow and corners of a row are of its time, poses of the camera of "
+        "the "
+        "frame's.",
+        camera.height_px, camera.rolling_shutter_s);
+  }
+  if (camera.exposure_s > 0) {
+    text += fmt::format(
+        " Each row is the mean of the light during {} s; all\ntruth is of the middle of this time.",
+        camera.exposure_s);
+  }
+  return text;
+}
+
+std::string clocks_text(const scenario::Camera& camera) {
+  if (camera.time_offset_s == 0) return "there is no delay between sensors.";
+  return fmt::format(
+      "the clock of\nthe camera, which stamps pictures and poses of the camera, is {} s {} that of "
+      "the IMU (Kalibr's `timeshift_cam_imu`: {}).",
+      std::abs(camera.time_offset_s), camera.time_offset_s > 0 ? "behind" : "ahead of",
+      camera.time_offset_s);
 }
 
 std::string head(const SequenceInfo& info) {
@@ -50,12 +80,12 @@ coordinates of a point in B to those in A.
 | C, camera | x right, y down, z forward |
 
 {camera}
-Pixels: x right, y down, (0, 0) is the centre of the top-left one. The picture is taken in an instant.
+Pixels: x right, y down, (0, 0) is the centre of the top-left one. {shutter}
 
 Frames count from 0 (in MOTChallenge's and COCO's files from 1). Times are nanoseconds, {epoch} at the
 first frame, which is time 0 of the simulation: frame k is at {epoch} + round(k * 10^9 / {rate}).
 Sample i of a sensor is at {epoch} + round(i * 10^9 / its rate). Picture, depth, masks, boxes and poses of a frame
-belong to the very same moment; there is no delay between sensors.
+belong to the very same moment; {clocks}
 
 ## Files
 )",
@@ -66,7 +96,8 @@ belong to the very same moment; there is no delay between sensors.
       fmt::arg("camera", camera_text(lens)),
       fmt::arg("origin", info.calibration.on_ground ? "origin on the ground below its middle"
                                                     : "origin at the IMU"),
-      fmt::arg("epoch", kEpoch_ns));
+      fmt::arg("epoch", kEpoch_ns), fmt::arg("shutter", shutter_text(s.camera)),
+      fmt::arg("clocks", clocks_text(s.camera)));
 }
 
 constexpr const char* kPictures = R"(

@@ -108,6 +108,11 @@ void read_calibration(const Node& node, const std::string& file, ReplaySettings&
   calibration.T_BS = pose_in(node["T_BS"]);
   calibration.T_WB_start = pose_in(node["T_WB_start"]);
   calibration.v_WB_start_mps = vector_in(node["v_WB_start_mps"]);
+  if (node.has("time_offset_s")) {
+    const Node offset = node["time_offset_s"];
+    calibration.time_offset_s = offset.number();
+    offset.require(std::abs(calibration.time_offset_s) <= kMost, "within a million");
+  }
   calibration.gravity_mps2 = not_negative_in(node["gravity_mps2"]);
   calibration.on_ground = node["on_ground"].flag();
 }
@@ -184,6 +189,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"filter_preset", scenario.filter_preset},
       {"filter", filter},
   };
+  if (calibration.time_offset_s != 0) json["time_offset_s"] = calibration.time_offset_s;
   if (origin) json["origin"] = {{"family", origin->family}, {"seed", origin->seed}};
   return json.dump(2) + "\n";
 }

@@ -132,12 +132,7 @@ State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, 
 Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen) {
-  const sim::Pose T_CW = now.truth.now.T_WC.inverse();
-  std::vector<sim::Pose> T_CN;  // from the next camera to this one, for each body
-  for (std::size_t id = 0; id < now.truth.now.T_WO.size(); ++id) {
-    const sim::Pose back = now.truth.now.T_WO[id] * next.truth.now.T_WO[id].inverse();
-    T_CN.push_back(T_CW * (back * next.truth.now.T_WC));
-  }
+  const sim::Way here(now.truth, motion_px.rows), after(next.truth, motion_px.rows);
   Agreement agreement;
   for (int y = 0; y < motion_px.rows; y += kFlowStride) {
     for (int x = 0; x < motion_px.cols; x += kFlowStride) {
@@ -152,7 +147,9 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                               : plane_inverse_depth(camera, next.truth, goal);
       if (!inverse_depth) continue;
       const Vector3d p_N = camera.back_project(goal, 1 / *inverse_depth);
-      const Vector3d p_C = T_CN[static_cast<std::size_t>(object)] * p_N;
+      const auto id = static_cast<std::size_t>(object);
+      const Vector3d p_O = after.T_WO(id, goal.y()).inverse() * (after.T_WC(goal.y()) * p_N);
+      const Vector3d p_C = here.T_WC(y).inverse() * (here.T_WO(id, y) * p_O);
       const double distance = (camera.project(p_C) - Vector2d(x, y)).norm();
       agreement.add(distance);
       if (!(distance < kMostFlowError_px)) {
@@ -311,20 +308,37 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
   // Skips a gap, which has fewer readings than there are states.
   if (truth.size() < 2 || frame.imu.size() != truth.size()) return agreement;
 
+  const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = imu.gyroscopes;
+  const auto& [M_accel, range_mps2, resolution_mps2] = imu.accelerometers;
+  const auto is_beyond = [](const Vector3d& reading, const std::optional<double>& range,
+                            const std::optional<double>& resolution) {
+    return range && reading.cwiseAbs().maxCoeff() >= *range - resolution.value_or(0);
+  };
   State state{truth.front().T_WS.R, truth.front().v_WS_mps};
   for (std::size_t i = 1; i < truth.size(); ++i) {
-    state = integrate(state, frame.imu[i].gyro_radps - truth[i].gyro_bias_radps,
-                      frame.imu[i].accel_mps2 - truth[i].accel_bias_mps2, gravity_mps2,
+    const sim::ImuSample& sample = frame.imu[i];
+    if (is_beyond(sample.gyro_radps, range_radps, resolution_radps) ||
+        is_beyond(sample.accel_mps2, range_mps2, resolution_mps2)) {
+      return agreement;  // the motion is not in the readings
+    }
+    const Vector3d accel =
+        M_accel.triangularView<Eigen::Lower>().solve(sample.accel_mps2 - truth[i].accel_bias_mps2);
+    const Vector3d gyro = C_gyro_i.transpose() * M.triangularView<Eigen::Lower>().solve(
+                                                     sample.gyro_radps - truth[i].gyro_bias_radps -
+                                                     A * (C_gyro_i * accel));
+    state = integrate(state, gyro, accel, gravity_mps2,
                       static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9);
   }
   const double span_s = static_cast<double>(truth.back().t_ns - truth.front().t_ns) * 1e-9;
   // Rounding errors of a static, noiseless IMU.
   constexpr double kRounding = 1e-9;
-  const double most_rad =
-      kRounding + kDeviations * imu.noise.gyroscope_noise_density * std::sqrt(span_s);
+  // The scales of a triad are near 1; on three axes a resolution is off by sqrt(3) / 2 at most.
+  const double most_rad = kRounding +
+                          kDeviations * imu.noise.gyroscope_noise_density * std::sqrt(span_s) +
+                          resolution_radps.value_or(0) * span_s;
   const double most_mps = kRounding +
                           kDeviations * imu.noise.accelerometer_noise_density * std::sqrt(span_s) +
-                          gravity_mps2 * span_s * most_rad;
+                          resolution_mps2.value_or(0) * span_s + gravity_mps2 * span_s * most_rad;
   const double turned_rad =
       Eigen::AngleAxisd(Eigen::Matrix3d(truth.back().T_WS.R.transpose() * state.R_WS)).angle();
   const double off_mps = (state.v_WS_mps - truth.back().v_WS_mps).norm();
@@ -345,10 +359,11 @@ void check_times(const scenario::Scenario& scenario, const sim::Observation& fra
   if (frame.t_ns != time_of(frame.index, rate)) {
     disagree(frame.index, "its time is {} ns, which is not on the grid of {} Hz", frame.t_ns, rate);
   }
-  std::int64_t after = frame.index == 0 ? -1 : time_of(frame.index - 1, rate);
+  const std::int64_t told_ns = std::llround(1e9 * scenario.camera.told.time_offset_error_s);
+  std::int64_t after = frame.index == 0 ? -1 : told_ns + time_of(frame.index - 1, rate);
   for (const sim::ImuTruth& state : frame.imu_truth) {
     const auto k = std::round(static_cast<double>(state.t_ns) * 1e-9 * scenario.imu.rate_hz);
-    if (state.t_ns <= after || state.t_ns > frame.t_ns ||
+    if (state.t_ns <= after || state.t_ns > frame.t_ns + told_ns ||
         state.t_ns != time_of(k, scenario.imu.rate_hz)) {
       disagree(frame.index, "a reading of the IMU at {} ns is out of step", state.t_ns);
     }

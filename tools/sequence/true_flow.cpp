@@ -21,15 +21,11 @@ struct Carrier {
   bool moves = false;
 };
 
-std::vector<Carrier> carriers_of(const sim::FrameTruth& truth) {
-  const sim::Pose T_NW = truth.next.T_WC.inverse();
+/// \param row of frame k; `next_row` of frame k+1, which differs by point with a rolling shutter.
+std::vector<Carrier> carriers_of(const sim::Way& way, double row, double next_row) {
   std::vector<Carrier> carriers;
-  for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id) {
-    const bool moves = sim::moved(truth.now.T_WO[id], truth.next.T_WO[id]);
-    const sim::Pose T_NC =
-        moves ? T_NW * (truth.next.T_WO[id] * (truth.now.T_WO[id].inverse() * truth.now.T_WC))
-              : T_NW * truth.now.T_WC;
-    carriers.push_back({T_NC, moves});
+  for (std::size_t id = 0; id < way.moves().size(); ++id) {
+    carriers.push_back({way.in_next(id, way.T_WC(row), row, next_row), way.moves(id)});
   }
   return carriers;
 }
@@ -69,7 +65,9 @@ struct NextView : Surfaces {
 
 TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
                    const cv::Mat1i& surface_id, const Surfaces& next_surfaces) {
-  const std::vector<Carrier> carriers = carriers_of(truth);
+  const sim::Way way(truth, truth.depth_m.rows);
+  const bool rolls = !truth.now_rows.at.empty();
+  const std::vector<Carrier> carriers = carriers_of(way, 0, 0);
   const NextView next{next_surfaces};
   const cv::Size size = truth.depth_m.size();
   TrueFlow field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
@@ -83,6 +81,7 @@ TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
       row_start[id] = R * Eigen::Vector3d(-cx / f, (y - cy) / f, 1);
       step[id] = R.col(0) / f;
     }
+    const sim::Pose T_WC = way.T_WC(y);
     const float* depth = truth.depth_m[y];
     const int* object = truth.object[y];
     const int* surface = surface_id[y];
@@ -101,6 +100,13 @@ TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
         Eigen::Vector3d goal = row_start[id] + x * step[id] + w * t;
         if (!camera.is_pinhole()) {
           goal = carriers[id].T_NC.R * camera.ray(x, y).homogeneous() + w * t;
+        }
+        if (rolls) {
+          const Eigen::Vector3d p_C = camera.back_project(Eigen::Vector2d(x, y), 1 / w);
+          const Eigen::Vector3d p_W = T_WC * p_C;
+          const double there = way.next_row(
+              id, p_W, y, [&](const Eigen::Vector3d& p) { return camera.project(p).y(); });
+          goal = w * way.in_next(id, p_W, y, there);
         }
         const double z = goal.z();
         if (z < kInFront) return;

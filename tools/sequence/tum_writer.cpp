@@ -7,9 +7,8 @@
 namespace lcs::sequence {
 namespace {
 
-std::string line_of(std::int64_t t_ns, const sim::Pose& pose) {
+std::string line_of(std::int64_t ns, const sim::Pose& pose) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  const std::int64_t ns = kEpoch_ns + t_ns;
   const Eigen::Quaterniond q = quaternion_of(pose);
   return fmt::format("{}.{:09} {} {} {} {} {} {} {}\n", ns / kSecond_ns, ns % kSecond_ns,
                      pose.p.x(), pose.p.y(), pose.p.z(), q.x(), q.y(), q.z(), q.w());
@@ -18,9 +17,10 @@ std::string line_of(std::int64_t t_ns, const sim::Pose& pose) {
 class TumWriter : public Writer {
  public:
   void write(const FrameView& frame, FrameOutput& output) const override {
-    output.rows["tum_camera"] = line_of(frame.now.t_ns, frame.now.truth.now.T_WC);
+    output.rows["tum_camera"] = line_of(frame.stamp_ns, frame.now.truth.now.T_WC);
     std::string& imu = output.rows["tum_imu"];
-    for (const sim::ImuTruth& state : frame.now.imu_truth) imu += line_of(state.t_ns, state.T_WS);
+    for (const sim::ImuTruth& state : frame.now.imu_truth)
+      imu += line_of(kEpoch_ns + state.t_ns, state.T_WS);
   }
   std::vector<Document> documents() const override {
     return {{"tum/camera.txt", {{.stream = "tum_camera"}}},

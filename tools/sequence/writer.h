@@ -31,6 +31,7 @@ struct SequenceInfo {
 
 struct FrameView {
   const sim::Observation& now;
+  std::int64_t stamp_ns;             ///< of the picture, by the clock of the camera
   const cv::Mat1w& mask;             ///< of objects, `object_mask`
   const TrueFlow* motion = nullptr;  ///< to the next frame; null if not requested, or last
 };
@@ -59,7 +60,7 @@ const std::vector<Format>& formats();
 /// \throws std::invalid_argument with the names of all formats.
 const Format& format(std::string_view name);
 
-/// Path of a frame's picture, which is written for any formats.
-std::string picture_path(std::int64_t t_ns);
+/// Path of the picture with a stamp, which is written for any formats.
+std::string picture_path(std::int64_t stamp_ns);
 
 }  // namespace lcs::sequence

@@ -1,0 +1,66 @@
+#include "sim/world/passage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace lcs::sim {
+namespace {
+
+/// Moves the readings until a time.
+template <class Sample>
+void take_until(std::int64_t t_ns, std::vector<Sample>& from, std::vector<Sample>& to) {
+  const auto end = std::ranges::find_if(from, [&](const Sample& s) { return s.t_ns > t_ns; });
+  to.assign(std::move_iterator(from.begin()), std::move_iterator(end));
+  from.erase(from.begin(), end);
+}
+
+}  // namespace
+
+Passage::Passage(World& world, const scenario::Scenario& scenario)
+    : world_(world),
+      rate_hz_(scenario.camera.rate_hz),
+      told_later_ns_(std::llround(1e9 * scenario.camera.told.time_offset_error_s)),
+      shutter_(scenario.camera) {
+  pass_frame();
+}
+
+void Passage::pass_frame() {
+  const std::int64_t frame_ns = event_time_ns(index_, rate_hz_);
+  const auto advance_to = [&](std::int64_t t_ns) {
+    world_.advance_to(t_ns, readings_.imu, readings_.odometry, &readings_.imu_truth);
+  };
+  const auto reach_frame = [&] {
+    advance_to(frame_ns);
+    frame_.now = world_.snapshot();
+    frame_.T_WB = world_.T_WB();
+    frame_.v_WC_mps = world_.v_WC_mps();
+    frame_.w_C_radps = world_.w_C_radps();
+  };
+  frame_ = {};
+  bool is_reached = shutter_.is_instant();
+  if (is_reached) reach_frame();
+  for (const std::int64_t after_ns : shutter_.instants_ns()) {
+    const std::int64_t t_ns = frame_ns + after_ns;
+    if (!is_reached && after_ns >= 0) {
+      reach_frame();
+      is_reached = true;
+    }
+    if (t_ns >= 0) advance_to(t_ns);
+    frame_.stages.push_back(t_ns >= 0 ? world_.stage() : world_.stage_before(t_ns));
+    frame_.snapshots.push_back(world_.snapshot_of(frame_.stages.back()));
+  }
+}
+
+void Passage::advance(Observation& frame) {
+  frame.index = index_;
+  frame.t_ns = event_time_ns(index_, rate_hz_);
+  ++index_;
+  pass_frame();
+  const std::int64_t until_ns = frame.t_ns + told_later_ns_;
+  take_until(until_ns, readings_.imu, frame.imu);
+  take_until(until_ns, readings_.odometry, frame.odometry);
+  take_until(until_ns, readings_.imu_truth, frame.imu_truth);
+}
+
+}  // namespace lcs::sim

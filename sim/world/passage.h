@@ -1,0 +1,62 @@
+/// \file
+/// A world that passes the frames of a camera, one after the other, and the readings between them.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/camera/shutter.h"
+#include "sim/simulation.h"
+#include "sim/world/world.h"
+
+namespace lcs::sim {
+
+/// The world during a frame.
+struct FrameState {
+  /// \name At the time of the frame.
+  ///@{
+  Snapshot now;
+  Pose T_WB;
+  Eigen::Vector3d v_WC_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+  ///@}
+  /// \name At `Shutter::instants_ns`; empty for an instant shutter. Before time 0 the rover and
+  /// free bodies have the velocities of time 0, and actors stand.
+  ///@{
+  std::vector<Snapshot> snapshots;
+  std::vector<Stage> stages;
+  ///@}
+};
+
+/// The instants of a shutter are events of the world, so that the steps of the physics end there.
+class Passage {
+ public:
+  /// \param world at t = 0; must outlive the passage. Passes the first frame.
+  Passage(World& world, const scenario::Scenario& scenario);
+
+  const Shutter& shutter() const { return shutter_; }
+  /// Number and state of the next frame. With an instant shutter the world is at its time, else at
+  /// the end of its window.
+  int index() const { return index_; }
+  const FrameState& frame() const { return frame_; }
+  FrameState& frame() { return frame_; }
+
+  /// Passes the frame after the next one, which becomes the next one. \param frame receives number,
+  /// time and readings of the frame that was the next one. \throws PhysicsError
+  void advance(Observation& frame);
+
+ private:
+  void pass_frame();
+
+  World& world_;
+  double rate_hz_;
+  std::int64_t told_later_ns_;  ///< the filter is told a later time for a frame than the true one
+  Shutter shutter_;
+  int index_ = 0;
+  FrameState frame_;
+  Observation readings_;  ///< those that no frame has got yet
+};
+
+}  // namespace lcs::sim
