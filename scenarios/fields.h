@@ -39,6 +39,7 @@ struct Key {
 };
 
 inline constexpr int kMostFrames = 1'000'000;
+inline constexpr std::size_t kMostCameras = 8;  // each has a GL context
 
 /// \name Forms of values
 ///@{
@@ -635,8 +636,9 @@ void fields(TruthKeys& truth, Visit&& visit) {
 template <class Visit>
 void fields(Scenario& scenario, Visit&& visit) {
   auto& [name, file, purpose, groups, recording, scene, scene_source, origin, seed, frames, ego,
-         camera, imu, odometry, ego_motion, fast_threshold, truth_min_depth_m, image, ground,
-         actors, filter_preset, filter_preset_source, filter, criteria, world, sweep] = scenario;
+         camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, fast_threshold,
+         truth_min_depth_m, image, ground, actors, filter_preset, filter_preset_source, filter,
+         criteria, world, sweep] = scenario;
   visit({"purpose", "one line for people", "none"}, purpose);
   visit({"groups", "list of the groups that a suite chooses by, as in `[short, night]`"}, groups,
         GroupNames{});
@@ -661,6 +663,14 @@ void fields(Scenario& scenario, Visit&& visit) {
         seed);
   visit({"ego", "the rover", recording ? "none" : kRequired}, ego);
   visit({"camera", "the rover's camera"}, camera);
+  visit({"cameras",
+         "in place of `camera`: a rig, as `{left: {...}, right: {...}}`, each with the keys of "
+         "`camera`; all have one rate and take their pictures at the same times",
+         "none"},
+        cameras);
+  visit.in_place_of("cameras", {"camera"});
+  visit({"filter_camera", "the one of `cameras` that detectors get", "the first"}, filter_camera);
+  if (!cameras.empty()) camera = cameras.front().camera;
   std::optional<int> count;
   if (frames > 0) count = frames;
   visit({"frames", "of the camera; frame k is at k / rate", kOneOfThese}, count,
@@ -684,8 +694,9 @@ void fields(Scenario& scenario, Visit&& visit) {
   visit({"image", "what the camera makes of the scene", "a real sensor's noise"}, image);
   visit({"ground", "bumps on the floor", "level"}, ground);
   visit({"actors", "who else moves, by name", "none"}, actors);
-  visit.in_place_of("recording", {"scene", "origin", "seed", "ego", "camera", "duration", "imu",
-                                  "odometry", "truth", "image", "ground", "actors"});
+  visit.in_place_of("recording",
+                    {"scene", "origin", "seed", "ego", "camera", "cameras", "filter_camera",
+                     "duration", "imu", "odometry", "truth", "image", "ground", "actors"});
   visit({"ego_motion",
          "what the filter is told of the rover's own motion: `imu` integrates the simulated IMU "
          "(with odometry, if there is some); `truth` is for experiments"},

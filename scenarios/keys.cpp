@@ -202,6 +202,16 @@ Kind kind_of(Plain, const std::vector<Actor>&) {
           rows_in(actor.rows, "NAME")};
 }
 
+Kind kind_of(Plain, const std::vector<RigCamera>&) {
+  const Kind camera = kind_of(Plain{}, default_scenario().camera);
+  return {"a map",
+          {{"type", "object"},
+           {"minProperties", 1},
+           {"maxProperties", kMostCameras},
+           {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]+$"}}},
+           {"additionalProperties", camera.schema}}};
+}
+
 template <class Form, class T>
 Kind kind_of(const Form& form, const std::optional<T>&) {
   return kind_of(form, T{});

@@ -502,6 +502,27 @@ void complete(input::Reader& reader, Camera& camera) {
       is_vertical ? 0 : std::atan2(R(1, 0), R(0, 0))};
 }
 
+/// Chooses the camera of the detectors.
+void complete(input::Reader& reader, Scenario& scenario) {
+  if (scenario.cameras.empty() && scenario.filter_camera.empty()) return;
+  const auto found = std::ranges::find(scenario.cameras, scenario.filter_camera, &RigCamera::name);
+  if (found == scenario.cameras.end() && !scenario.filter_camera.empty()) {
+    throw input::Error(reader.find("filter_camera")->where,
+                       "filter_camera is '" + scenario.filter_camera +
+                           "', and no camera of cameras has that name; give one that has, or "
+                           "remove it");
+  }
+  const bool is_first = scenario.filter_camera.empty();
+  scenario = seen_by(std::move(scenario),
+                     is_first ? 0 : static_cast<std::size_t>(found - scenario.cameras.begin()));
+  if (scenario.cameras.size() > 1 && scenario.image.rain) {
+    throw input::Error(reader.find("image")->where,
+                       "image.rain falls before a single camera, and this is a rig of " +
+                           std::to_string(scenario.cameras.size()) +
+                           "; remove the rain, or give one camera");
+  }
+}
+
 // --- maps
 
 struct ReadFields {
@@ -527,7 +548,7 @@ struct ReadFields {
 
 /// Keys of other simulators, of calibrations and of other maps of a scenario, and the remedy where
 /// the map has no such key.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 41> kForeignKeys{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 40> kForeignKeys{{
     {"fx", "give camera.focal: [fx, fy]"},
     {"fy", "give camera.focal: [fx, fy]"},
     {"cx", "give camera.centre: [cx, cy]"},
@@ -566,8 +587,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 41> kForeign
     {"update_rate", "give imu.rate"},
     {"rate_hz", "give the rate of the sensor as its rate"},
     {"T_i_b", "give imu.position and imu.rotation"},
-    {"cameras", ""},
-    {"stereo", ""},
+    {"stereo", "give the rig as cameras: {left: {...}, right: {...}}"},
     {"auto_exposure", ""},
 }};
 
@@ -623,29 +643,51 @@ void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
   }
 }
 
-/// Actor names are also names of bodies in the world and parts of `--set` paths.
-void check_name(const input::Entry& entry) {
+/// Names are also parts of `--set` paths.
+/// \param owner as "the actor's".
+void check_name(const input::Entry& entry, const std::string& owner) {
   const auto is_name_char = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  if (entry.key == "ego") {
-    throw input::Error(entry.where,
-                       "an actor is called 'ego', which is the rover's name; rename it");
-  }
   if (std::all_of(entry.key.begin(), entry.key.end(), is_name_char)) return;
   throw input::Error(entry.where,
-                     "the actor's name '" + entry.key +
+                     owner + " name '" + entry.key +
                          "' has other characters than letters, digits, '_' and '-'; rename it");
 }
 
 void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
   const input::Reader names(item.value, item.path);
   for (const input::Entry& entry : item.value.entries) {
-    check_name(entry);
+    // it is also the name of a body in the world
+    if (entry.key == "ego") {
+      throw input::Error(entry.where,
+                         "an actor is called 'ego', which is the rover's name; rename it");
+    }
+    check_name(entry, "the actor's");
     Actor& actor = actors.emplace_back();
     actor.name = entry.key;
     read_value(Item{entry.value, names.path_of(entry.key), item.folder}, Plain{}, actor);
+  }
+}
+
+void read_value(const Item& item, Plain, std::vector<RigCamera>& cameras) {
+  const input::Reader names(item.value, item.path);
+  for (const input::Entry& entry : item.value.entries) {
+    check_name(entry, "the camera's");
+    RigCamera& one = cameras.emplace_back();
+    one.name = entry.key;
+    one.source = entry.where;
+    read_value(Item{entry.value, names.path_of(entry.key), item.folder}, Plain{}, one.camera);
+    if (one.camera.rate_hz == cameras.front().camera.rate_hz) continue;
+    throw input::Error(
+        one.source, names.path_of(entry.key) +
+                        " has another rate than the camera before it; give all of a rig one rate");
+  }
+  if (cameras.empty() || cameras.size() > kMostCameras) {
+    throw input::Error(item.value.where, item.path + " has " + std::to_string(cameras.size()) +
+                                             " cameras; give 1 to " + std::to_string(kMostCameras) +
+                                             ", as {left: {...}, right: {...}}");
   }
 }
 

@@ -110,6 +110,13 @@ struct Camera {
   std::vector<int> groups{0, 1, 2};  ///< MuJoCo's groups whose geoms are drawn, each once
 };
 
+/// One camera of a rig.
+struct RigCamera {
+  std::string name;
+  input::Source source;
+  Camera camera;
+};
+
 /// Kalibr's noise model with a turn-on bias, see `sim/imu/imu_noise.h`. With all 0 the IMU is
 /// ideal.
 struct ImuNoise {
@@ -397,7 +404,10 @@ struct Scenario {
   std::uint64_t seed = 1;  ///< of all random streams: textures, IMU noise, odometry and others
   int frames = 0;          ///< > 0; for a recording: the most, and 0 for all of its frames
   Ego ego;
-  Camera camera;
+  Camera camera;                   ///< of the detectors: that of `cameras` if there are some
+  std::vector<RigCamera> cameras;  ///< of a rig, all of one rate; empty for a single camera
+  std::string filter_camera;       ///< the name of that of the detectors; "": no rig, or its first
+  std::size_t rig_place = 0;       ///< of `camera` in `cameras`
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
@@ -418,5 +428,12 @@ struct Scenario {
   /// `scenarios/sweep.h`.
   std::vector<SweptKey> sweep;
 };
+
+/// The scenario as one camera of its rig sees it. \param place in `cameras`; 0 without a rig.
+inline Scenario seen_by(Scenario scenario, std::size_t place) {
+  if (!scenario.cameras.empty()) scenario.camera = scenario.cameras.at(place).camera;
+  scenario.rig_place = place;
+  return scenario;
+}
 
 }  // namespace lcs::scenario

@@ -200,6 +200,14 @@ inline input::Value written(Plain, const std::vector<Actor>& actors) {
   }
   return actors.empty() ? input::Value{} : names;
 }
+inline input::Value written(Plain, const std::vector<RigCamera>& cameras) {
+  input::Value names = map();
+  for (const RigCamera& one : cameras) {
+    const input::Value keys = written(Plain{}, one.camera);
+    put(names, one.name, keys.kind == input::Value::Kind::null ? map() : keys);
+  }
+  return cameras.empty() ? input::Value{} : names;
+}
 inline input::Value written(const FilterParameters& form,
                             const std::vector<FilterSetting>& settings) {
   input::Value keys = map();

@@ -9,6 +9,7 @@
 
 #include "sim/camera/linear_light.h"
 #include "sim/drive.h"
+#include "sim/random.h"
 
 namespace lcs::sim {
 namespace {
@@ -31,7 +32,11 @@ std::vector<ConvexParts> outlines(const World& world) {
 
 Photographer photographer_of(const scenario::Scenario& s, const Optics& camera) {
   try {
-    return {s.image, camera, s.camera.rate_hz, s.seed};
+    // Each camera of a rig has its own noise; that of the first is as of a single camera.
+    const std::uint64_t seed =
+        s.rig_place == 0 ? s.seed
+                         : RandomStream(s.seed, fmt::format("camera.{}", s.rig_place)).bits();
+    return {s.image, camera, s.camera.rate_hz, seed};
   } catch (const std::invalid_argument& error) {
     throw input::Error({s.file.string(), 0}, error.what());
   }

@@ -53,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
         added(
             "UnknownFar", "weather: rain\n",
             "4: unknown key 'weather'; known are purpose, groups, scene, recording, origin, seed, "
-            "ego, camera, frames, duration, imu, odometry, truth, image, ground, actors, "
+            "ego, camera, cameras, filter_camera, frames, duration, imu, odometry, truth, image, "
+            "ground, actors, "
             "ego_motion, "
             "corners, filter, criteria and sweep"),
         added("UnknownInSection", "camera:\n  rate: 5\n  fov: 60\n",

@@ -123,6 +123,11 @@ TEST(Written, IsTheFileThatWasRead) {
       "distortion: [-0.28, 0.07, 0.0002, 0, 0]}\n";
   EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + flown)),
             input::flattened(input::parse_text(flown, {"text", 1})));
+  const std::string rig =
+      "frames: 3\nego: {speed: 0.5 m/s}\ncameras: {left: {size: [320, 240], rate: 20 Hz}, right: "
+      "{size: [320, 240], rate: 20 Hz, position: [0.2 m, -0.1 m, 0.45 m]}}\nfilter_camera: right\n";
+  EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + rig)),
+            input::flattened(input::parse_text(rig, {"text", 1})));
   const std::string recorded = kRecorded;
   std::string with_path = recorded;
   with_path.insert(with_path.find('{') + 1, "path: room.xml, ");

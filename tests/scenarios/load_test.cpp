@@ -631,5 +631,45 @@ TEST(Shipped, TheLabRunIsThePapers) {
   EXPECT_TRUE(s.actors.empty());
 }
 
+const std::string rig_of_two = smallest +
+                               "cameras:\n  left: {rate: 20, position: [0.2, 0.1, 0.5]}\n  right: "
+                               "{rate: 20, size: [320, 240]}\n";
+
+TEST(Load, TheCameraOfTheDetectorsIsTheFirstOfARigOrTheNamedOne) {
+  const Scenario first = load_text(rig_of_two);
+  ASSERT_EQ(first.cameras.size(), 2u);
+  EXPECT_EQ(first.cameras[1].name, "right");
+  EXPECT_EQ(first.camera.mount_position_m.y(), 0.1);
+  EXPECT_EQ(first.camera.rate_hz, 20);
+  const Scenario named = load_text(rig_of_two + "filter_camera: right\n");
+  EXPECT_EQ(named.camera.width_px, 320);
+  EXPECT_EQ(named.rig_place, 1u);
+  EXPECT_EQ(seen_by(named, 0).camera.width_px, 640);
+  const Scenario lasting =
+      load_text(rig_of_two.substr(rig_of_two.find("ego")) + "scene: room.xml\nduration: 1 s\n");
+  EXPECT_EQ(lasting.frames, 20) << "by the rate of the rig";
+  EXPECT_EQ(load_text(rig_of_two, {.sets = {"cameras.right.size=[160, 120]"}, .seed = {}})
+                .cameras[1]
+                .camera.width_px,
+            160);
+}
+
+TEST(Load, AWrongRigIsRefusedAtItsLine) {
+  EXPECT_EQ(refusal(rig_of_two + "camera: {rate: 20}\n"),
+            "test.yaml:4: both camera and cameras are given; keep one of them");
+  EXPECT_EQ(refusal(rig_of_two + "filter_camera: middle\n"),
+            "test.yaml:7: filter_camera is 'middle', and no camera of cameras has that name; give "
+            "one that has, or remove it");
+  EXPECT_EQ(refusal(smallest + "filter_camera: left\n").find("test.yaml:4: filter_camera"), 0u);
+  EXPECT_EQ(refusal(rig_of_two + "  slow: {rate: 5}\n"),
+            "test.yaml:7: cameras.slow has another rate than the camera before it; give all of a "
+            "rig one rate");
+  EXPECT_EQ(refusal(smallest + "cameras: {}\n").find("test.yaml:4: cameras has 0 cameras; give"),
+            0u);
+  EXPECT_EQ(refusal(rig_of_two + "image: {rain: {rate: 5}}\n").find("test.yaml:7: image.rain"), 0u);
+  EXPECT_EQ(refusal(smallest + "cameras: {a b: {}}\n").find("test.yaml:4: the camera's name 'a b'"),
+            0u);
+}
+
 }  // namespace
 }  // namespace lcs::scenario

@@ -30,6 +30,7 @@ RIGHT = [
     "{scene: lab, frames: 3, ego: {acceleration: -5 cm/s^2}, image: {noise: none, gain: '2'}}",
     "{scene: lab, frames: 3, ego: {path: [[0, 0, 0, 1, 0, 9 deg, 0], [1 s, 1, 0, 1, 0, 0, 0]]}}",
     "{scene: lab, frames: 3, ego: {}, camera: {focal: [500 px, 499], distortion: [0, 0, 0, 0, 0]}}",
+    "{scene: lab, frames: 3, ego: {}, cameras: {left: {}, right: {fovy: 50 deg}}, filter_camera: right}",
 ]
 WRONG = [
     "{frames: 3, ego: {}}",  # no scene
@@ -54,6 +55,9 @@ WRONG = [
     "{scene: lab, frames: 0, ego: {}}",
     "{scene: lab, frames: 3, ego: {}, camera: {fovy: 60 deg, focal: 600 px}}",
     "{scene: lab, frames: 3, ego: {}, camera: {fovy: 0}}",
+    "{scene: lab, frames: 3, ego: {}, camera: {}, cameras: {left: {}, right: {}}}",
+    "{scene: lab, frames: 3, ego: {}, cameras: {}}",
+    "{scene: lab, frames: 3, ego: {}, cameras: {left: {fovi: 50 deg}}}",
     "{scene: lab, frames: 3, ego: {}, imu: {preset: mpu6050}}",
     "{scene: lab, frames: 3, ego: {}, groups: [a, a]}",
     "{scene: lab, frames: 3, ego: {}, actors: {a: {shape: ball, trajectory: {still: {}}}}}",
