@@ -679,10 +679,13 @@ void read_value(const Item& item, Plain, std::vector<RigCamera>& cameras) {
     one.name = entry.key;
     one.source = entry.where;
     read_value(Item{entry.value, names.path_of(entry.key), item.folder}, Plain{}, one.camera);
-    if (one.camera.rate_hz == cameras.front().camera.rate_hz) continue;
-    throw input::Error(
-        one.source, names.path_of(entry.key) +
-                        " has another rate than the camera before it; give all of a rig one rate");
+    const auto require_same = [&](double Camera::*member, const char* quantity) {
+      if (one.camera.*member == cameras.front().camera.*member) return;
+      throw input::Error(one.source, names.path_of(entry.key) + " has another " + quantity +
+                                         " than the camera before it; give all of a rig one");
+    };
+    require_same(&Camera::rate_hz, "rate");
+    require_same(&Camera::time_offset_s, "time_offset");
   }
   if (cameras.empty() || cameras.size() > kMostCameras) {
     throw input::Error(item.value.where, item.path + " has " + std::to_string(cameras.size()) +

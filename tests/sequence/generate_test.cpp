@@ -20,6 +20,7 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
+#include "tests/sequence/rows.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
@@ -43,18 +44,6 @@ const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
 constexpr int kFrames = 4;
 // A start far enough back that both movers are in view from the first frame on.
 const std::vector<std::string> kSets{"ego.start=[-3 m, 0 m]"};
-
-std::vector<std::vector<std::string>> rows_of(const fs::path& csv) {
-  std::vector<std::vector<std::string>> rows;
-  std::ifstream file(csv);
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with('#')) continue;
-    std::vector<std::string> row;
-    for (const std::string_view field : bench::fields_of(line)) row.emplace_back(field);
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
 
 std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> files;
@@ -303,7 +292,7 @@ TEST_F(Generated, BoxesOfMotChallengeAreThoseOfTheTruthCountedFromOne) {
   const std::string info = read_file(folder() / "mot/crossing/seqinfo.ini");
   EXPECT_NE(info.find("seqLength=4\n"), std::string::npos) << info;
   EXPECT_EQ(read_file(folder() / "mot/crossing/img1/000001.png"),
-            read_file(folder() / picture_path(0)));
+            read_file(folder() / picture_path(kEpoch_ns)));
 }
 
 TEST_F(Generated, MasksOfCocoAndDavisAreTheObjectsPixelByPixel) {
@@ -473,6 +462,155 @@ TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   const CommandResult result = generate({"--out", folder(), "--formats", "depth"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("000001.png has other bytes"), std::string::npos) << result.err;
+}
+
+TEST_F(Generate, ABagWithoutRosbagsIsRefusedWithItsInstallation) {
+  bench::write(home_.path() / "python" / "rosbags.py", "raise ImportError\n");
+  ASSERT_EQ(::setenv("PYTHONPATH", (home_.path() / "python").c_str(), 1), 0);
+  const CommandResult result = generate({"--out", folder(), "--formats", "mcap"});
+  ::unsetenv("PYTHONPATH");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("writing bags needs the Python package rosbags; install it with: "),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(Generate, AUseNamesItsFormats) {
+  const std::vector<std::pair<std::string, std::set<std::string>>> uses{
+      {"vio", {"kalibr", "mav0", "tum"}},
+      {"detection", {"coco", "davis", "mav0", "mot"}},
+      {"flow", {"depth", "flow", "flow_ego", "mav0"}}};
+  for (const auto& [use, expected] : uses) {
+    const fs::path out = home_.path() / use;
+    const CommandResult result = generate({"--out", out, "--for", use});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    std::set<std::string> folders;
+    for (const auto& entry : fs::directory_iterator(out)) {
+      if (entry.is_directory()) folders.insert(entry.path().filename().string());
+    }
+    EXPECT_EQ(folders, expected);
+  }
+  EXPECT_NE(generate({"--out", folder(), "--for", "slam"}).err.find("vio, detection or flow"),
+            std::string::npos);
+  EXPECT_EQ(generate({"--out", folder(), "--for", "vio", "--formats", "tum"}).exit_code, 2);
+}
+
+std::uintmax_t bytes_of(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) bytes += entry.file_size() / entry.hard_link_count();
+  }
+  return bytes;
+}
+
+TEST_F(Generate, TheSizeIsToldToAFactorOfTwo) {
+  const std::vector<std::vector<std::string>> cases{
+      {"--formats", "flow,depth"},
+      {"--formats", "landmarks"},
+      {"--formats", "euroc,tum,kalibr,kitti", "--set", "camera.size=[160, 120]"},
+      {"--for", "detection", "--set", "image.light=2 lx", "--set", "image.exposure=20 ms"},
+      {"--formats", "davis", "--set", "image.noise=none"},
+      {"--formats", "tum", "--set", "image.jpeg=70"}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::vector<std::string> more{"--out", home_.path() / std::to_string(i)};
+    more.insert(more.end(), cases[i].begin(), cases[i].end());
+    const CommandResult result = generate(more);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t at = result.err.find(": about ");
+    ASSERT_NE(at, std::string::npos) << result.err;
+    const double told = 1e6 * std::stod(result.err.substr(at + 8));
+    const auto real = static_cast<double>(bytes_of(home_.path() / std::to_string(i)));
+    EXPECT_LT(std::abs(std::log2(told / real)), 1) << i << ": " << told << " and not " << real;
+  }
+}
+
+TEST_F(Generate, ASequenceThatTheDiskHasNoRoomForIsRefusedAtOnce) {
+  const CommandResult result = run_lcs({"generate", kCrossing, "--out", folder(), "--set",
+                                        "frames=1000000", "--set", "camera.size=[8192, 8192]"},
+                                       {.folder = home_.path()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find(" free; make room, or choose fewer --formats"), std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(Generate, ASequenceThatFailsAtItsStartLeavesNothing) {
+  const std::vector<std::vector<std::string>> failing{
+      {"--set", "actors.crossing_box={body: no_such_body, trajectory: {still: {}}}"},
+      {"--set", "actors.crossing_box.trajectory={line: {from: [-3, 0], heading: 0, speed: 0}}"},
+      {"--set", "camera.distortion=[-0.9, 0, 0, 0, 0]"},
+      {"--set", "camera.distortion=[-0.9, 0, 0, 0, 0]", "--jobs", "2"},
+      {"--set", "camera.distortion=[-0.1, 0, 0, 0, 0]", "--formats", "kitti"},
+      {"--add"}};
+  for (const std::vector<std::string>& why : failing) {
+    std::vector<std::string> more{"--out", home_.path() / "new" / "place"};
+    more.insert(more.end(), why.begin(), why.end());
+    const CommandResult result = generate(more);
+    EXPECT_EQ(result.exit_code, 2) << why.back();
+    EXPECT_FALSE(fs::exists(home_.path() / "new")) << result.err;
+  }
+  fs::create_directory(folder());
+  EXPECT_EQ(generate({"--out", folder(), "--add"}).exit_code, 2);
+  EXPECT_TRUE(fs::is_empty(folder())) << "a folder that was there stays";
+}
+
+TEST_F(Generate, FormatsThatAreAddedMakeTheSequenceOfAllOfThem) {
+  const auto times_in = [&] {
+    std::map<std::string, fs::file_time_type> times;
+    for (const std::string& file : files_in(folder())) {
+      times[file] = fs::last_write_time(folder() / file);
+    }
+    return times;
+  };
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "depth,mot", "--quiet"}).exit_code, 0);
+  const auto earlier = times_in();
+  for (const char* jobs : {"1", "2"}) {
+    const std::string more = std::string(jobs) == "1" ? "coco,depth" : "tum";
+    const CommandResult added =
+        generate({"--out", folder(), "--formats", more, "--add", "--jobs", jobs});
+    ASSERT_EQ(added.exit_code, 0) << added.err;
+    EXPECT_NE(added.err.find(" more"), std::string::npos) << added.err;
+  }
+  for (const auto& [file, time] : times_in()) {
+    if (file == "README.md" || file == kManifestFile || !earlier.contains(file)) continue;
+    EXPECT_EQ(time, earlier.at(file)) << file << " was written again";
+  }
+  const fs::path whole = home_.path() / "whole";
+  ASSERT_EQ(generate({"--out", whole, "--formats", "tum,mot,coco,depth", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == bytes_in(whole));
+  const CommandResult again = generate({"--out", folder(), "--formats", "tum", "--add"});
+  EXPECT_NE(again.out.find("is complete"), std::string::npos) << again.out << again.err;
+
+  const std::vector<std::pair<std::vector<std::string>, std::string>> others{
+      {{"--seed", "2"}, "seed is 1, not 2"}, {{"--set", "ego.speed=1 m/s"}, "its set is"}};
+  for (const auto& [other, expected] : others) {
+    std::vector<std::string> more{"--out", folder(), "--formats", "kalibr", "--add"};
+    more.insert(more.end(), other.begin(), other.end());
+    const CommandResult result = generate(more);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+  }
+  EXPECT_TRUE(bytes_in(folder()) == bytes_in(whole));
+  bench::write(folder() / "depth/000001.png", "not as it was");
+  const CommandResult damaged = generate({"--out", folder(), "--formats", "kalibr", "--add"});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_NE(damaged.err.find("000001.png has other bytes"), std::string::npos) << damaged.err;
+}
+
+TEST_F(Generate, AFormatThatIsNotAddedToItsEndIsAddedByTheSameCommand) {
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
+  const std::vector<std::string> add{"--out", folder(), "--formats", "flow", "--add", "--quiet"};
+  bench::Command command(arguments(add), {.folder = home_.path()});
+  while (!fs::exists(folder() / ".generate" / "frame-000000.json") && command.is_running()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  command.send(SIGKILL);
+  ASSERT_NE(command.wait().exit_code, 0) << "it was done before it could be stopped";
+  ASSERT_EQ(generate(add).exit_code, 0);
+  const fs::path whole = home_.path() / "whole";
+  ASSERT_EQ(generate({"--out", whole, "--formats", "flow,depth", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == bytes_in(whole));
 }
 
 // ---- Stopping, resuming, parts

@@ -133,8 +133,9 @@ TEST_P(Lens, HasATruthThatAgreesWithItsPictures) {
 }
 
 TEST_P(Lens, HasTheMotionsOfItsCorners) {
+  const std::vector<const sim::Calibration*> rig{&simulation_.calibration()};
   const SequenceInfo info{scenario_, simulation_.calibration(), simulation_.objects(),
-                          simulation_.origin()};
+                          simulation_.origin(), rig};
   FrameOutput output;
   format("landmarks").make(info)->write({now_, object_mask(now_.truth), nullptr}, output);
   const ByOpenCv opencv(optics().lens());

@@ -69,7 +69,8 @@ TEST(Objects, OnlyMasksOfEightBitsLimitTheirNumber) {
   const sim::Calibration calibration;
   const std::optional<scenario::Origin> origin;
   std::vector<sim::Object> objects(253);
-  const SequenceInfo info{scenario, calibration, objects, origin};
+  const std::vector<const sim::Calibration*> rig{&calibration};
+  const SequenceInfo info{scenario, calibration, objects, origin, rig};
   for (const Format& format : formats()) EXPECT_NO_THROW(format.make(info)) << format.name;
   objects.resize(254);
   for (const Format& format : formats()) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -44,15 +45,52 @@ scenario::Scenario load(const GenerateRequest& request) {
   return scenario;
 }
 
-/// The requested formats in the order of the table, without duplicates.
-std::vector<std::string> formats_of(const GenerateRequest& request) {
+/// The formats that a finished sequence has; none if there is no such sequence.
+std::vector<std::string> formats_in(const fs::path& folder) {
+  const fs::path manifest = folder / sequence::kManifestFile;
+  if (!fs::exists(manifest)) return {};
+  const nlohmann::json plan = sequence::plan_in_manifest(manifest);
+  return plan.is_object() ? plan.value("formats", std::vector<std::string>())
+                          : std::vector<std::string>();
+}
+
+/// The requested formats and those to which they are added, in the order of the table, without
+/// duplicates.
+std::vector<std::string> formats_of(const GenerateRequest& request,
+                                    const std::vector<std::string>& earlier) {
   for (const std::string& name : request.formats) sequence::format(name);
   std::vector<std::string> names;
   for (const sequence::Format& format : sequence::formats()) {
-    const bool is_asked = std::count(request.formats.begin(), request.formats.end(), format.name);
-    if (request.formats.empty() || is_asked) names.emplace_back(format.name);
+    const bool is_asked = request.formats.empty()
+                              ? format.is_usual
+                              : std::ranges::count(request.formats, format.name) > 0;
+    if (is_asked || std::ranges::count(earlier, format.name) > 0) names.emplace_back(format.name);
   }
   return names;
+}
+
+std::string megabytes(double bytes) {
+  return fmt::format("{:.{}f} MB", bytes / 1e6, bytes < 1e7 ? 1 : 0);
+}
+
+/// Tells the size of a sequence, or of the formats that are added to one, before it is made.
+/// \throws bench::OutputError if the disk has too little room for it.
+void tell_size(const scenario::Scenario& scenario, const std::vector<std::string>& formats,
+               const std::vector<std::string>& earlier, const sequence::Journal& journal,
+               Caller& caller) {
+  double bytes = sequence::estimated_bytes(scenario, formats);
+  if (!earlier.empty()) bytes -= sequence::estimated_bytes(scenario, earlier);
+  caller.note(fmt::format("{}: {} frames with {}: about {}{}", scenario.name, scenario.frames,
+                          fmt::join(formats, ", "), megabytes(bytes),
+                          earlier.empty() ? "" : " more"));
+  bytes *= 1 - 1.0 * journal.recorded() / scenario.frames;
+  const fs::path& folder = journal.folder();
+  const auto free = static_cast<double>(fs::space(folder).available);
+  if (bytes <= free) return;
+  throw bench::OutputError(
+      fmt::format("{}: the sequence takes about {}, and its disk has {} free; make room, or choose "
+                  "fewer --formats, fewer --frames or another folder with --out",
+                  folder.string(), megabytes(bytes), megabytes(free)));
 }
 
 void check_complete(const fs::path& folder) {
@@ -111,6 +149,7 @@ std::vector<std::string> sequence_command(const GenerateRequest& request,
                                           const std::string& scenario, const std::string& out) {
   CommandLine line({"generate", scenario, "--out", out, "--quiet"});
   line.add("--formats", fmt::format("{}", fmt::join(request.formats, ",")));
+  line.add_flag("--add", request.add);
   if (request.frames > 0) line.add("--frames", std::to_string(request.frames));
   if (request.seed) line.add("--seed", std::to_string(*request.seed));
   line.add_each("--set", request.sets);
@@ -127,20 +166,28 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
   }
   scenario::Scenario scenario = load(request);
   bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
-  const sequence::GenerateOptions what{formats_of(request), request.sets, program_text()};
   const bool is_part = !request.shard.empty();
   const auto [part, parts] = is_part ? suite::shard_of(request.shard) : suite::Shard{};
   const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
-  const std::string plan = sequence::plan_of(scenario, what);
+  sequence::GenerateOptions what{formats_of(request, {}), request.sets, program_text()};
+  std::vector<std::string> earlier;
   std::optional<bench::FolderLock> turn;
-  sequence::Journal journal(target_of(request, scenario), plan, [&](const fs::path& folder) {
-    if (!is_part) wait_for_turn(folder, turn, caller);
-  });
+  sequence::Journal journal(
+      target_of(request, scenario),
+      [&](const fs::path& folder) {
+        if (!is_part) wait_for_turn(folder, turn, caller);
+        if (request.add) earlier = formats_in(folder);
+        what.formats = formats_of(request, earlier);
+        return sequence::plan_of(scenario, what);
+      },
+      request.add);
   Generated made{.folder = journal.folder(), .range = range, .notes = {}};
   if (journal.is_complete()) {
     check_complete(journal.folder());
     made.state = Generated::State::complete_before;
   } else {
+    if (request.add && !is_part) check_complete(journal.folder());
+    tell_size(scenario, what.formats, earlier, journal, caller);
     if (request.jobs == 1) {  // otherwise the child processes print it
       caller.warn(scenario::shadowed_files(scenario));
     }
@@ -166,7 +213,7 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
     if (is_part) {
       made.state = Generated::State::part;
     } else {
-      made.notes = sequence::finish_sequence(scenario, what, plan, journal);
+      made.notes = sequence::finish_sequence(scenario, what, journal);
     }
   }
   made.scenario = std::move(scenario);

@@ -20,7 +20,8 @@ struct GenerateRequest {
   bool suite = false;                ///< one sequence for each scenario and seed
   WorldsChoice worlds;               ///< a sequence for each world, in place of `paths`
   std::string out;                   ///< folder; "" is data/<scenario's name>, data with `suite`
-  std::vector<std::string> formats;  ///< empty: all
+  std::vector<std::string> formats;  ///< empty: the usual ones
+  bool add = false;                  ///< to those of a finished sequence in `out`
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;     ///< "key=value"
   int frames = 0;                    ///< 0: all frames of the scenario

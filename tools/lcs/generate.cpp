@@ -1,6 +1,7 @@
 /// \file
 /// `lcs generate`: writes scenarios as sequences of pictures and truth for other tools.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -22,6 +23,8 @@ struct GenerateOptions {
 constexpr const char* kHelp = R"(Examples:
   lcs generate scenarios/crossing.yaml --out data/crossing
   lcs generate scenarios/crossing.yaml --formats euroc,flow --frames 20 --seed 7 --out data/seed7
+  lcs generate scenarios/crossing.yaml --for flow --out data/flow         formats by their use
+  lcs generate scenarios/crossing.yaml --formats coco --out data/crossing --add      one more format
   lcs replay data/crossing                       the filter on it: the verdicts of lcs run
   lcs generate --suite --jobs 2 --out data       every short scenario: data/NAME-seedN
   lcs generate --suite --shard 3/16 --out data   the third of 16 parts, as a batch system has it
@@ -29,7 +32,8 @@ constexpr const char* kHelp = R"(Examples:
   parallel lcs generate --suite --out data --shard {}/4 ::: 1 2 3 4
 
 Each frame is checked before it is written: flow against depth and poses, boxes against masks, IMU
-against poses, times. The folder's README.md says every unit, frame and axis; manifest.json has the
+against poses, times. The size is told before the first frame is made, to a factor of two; a disk with
+less room is refused. A sequence that fails at its start leaves nothing. The folder's README.md says every unit, frame and axis; manifest.json has the
 hash of every file. A run that was stopped goes on where it was when it is given again, and
 the bytes are those of a run that never stopped. A folder that holds anything else is refused.
 With --shard i/n and one scenario only the i-th part of the frames is made; when all parts are there, the
@@ -92,13 +96,33 @@ Command add_generate_command(CLI::App& app) {
           "data if not given")
       ->type_name("DIR")
       ->group(kOutputs);
-  std::string about = "Formats, with commas between them; all if not given:";
+  std::string about = "Formats, with commas between them; if not given, all but those with a *:";
   for (const sequence::Format& format : sequence::formats()) {
-    about += fmt::format("\n{:<10} {}", format.name, format.purpose);
+    about += fmt::format("\n{:<10} {}{}", format.name, format.purpose, format.is_usual ? "" : " *");
   }
-  command.add_option("--formats", options.request.formats, about)
-      ->type_name("LIST")
-      ->delimiter(',');
+  CLI::Option* formats = command.add_option("--formats", options.request.formats, about)
+                             ->type_name("LIST")
+                             ->delimiter(',');
+  about = "The formats of a use, in place of --formats:";
+  std::vector<std::string> uses;
+  for (const sequence::Use& use : sequence::uses()) {
+    about += fmt::format("\n{:<10} {}", use.name, fmt::join(use.formats, ", "));
+    uses.emplace_back(use.name);
+  }
+  command
+      .add_option_function<std::string>(
+          "--for",
+          [&options, uses](const std::string& name) {
+            options.request.formats =
+                sequence::uses()[input::as_choice(option_value("--for", name), "the use", uses)]
+                    .formats;
+          },
+          about)
+      ->type_name("USE")
+      ->excludes(formats);
+  command.add_flag("--add", options.request.add,
+                   "Add the formats to the finished sequence in --out, which the same scenario, "
+                   "seed and program made; files that are there stay as they are");
   add_integer_option(command, "--frames", options.request.frames, "Only the first N frames", 1,
                      kMostFrames)
       ->type_name("N");

@@ -1,12 +1,10 @@
 // ROS 1 bags, rosbag2 (.db3) and MCAP. read_bag.py writes them as a folder in EuRoC's layout, by
 // PyPI's rosbags, and that folder is read.
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <set>
@@ -16,7 +14,7 @@
 #include "tools/files/json_node.h"
 #include "tools/input/input_file.h"
 #include "tools/input/message.h"
-#include "tools/process/child.h"
+#include "tools/process/python.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -51,22 +49,11 @@ class [[nodiscard]] TemporaryFolder {
 };
 
 /// Runs read_bag.py. \throws input::Error with its message if it fails.
-void run_reader(std::vector<std::string> arguments, const fs::path& errors, int out,
-                const input::Source& where) {
-  const char* python = std::getenv("LCS_PYTHON");
-  const fs::path script = scenario::shipped_folder("tools/replay") / "read_bag.py";
-  arguments.insert(arguments.begin(), {"env", python ? python : "python3", script.string()});
-  std::FILE* file = std::fopen(errors.c_str(), "wb");
-  if (!file) throw std::system_error(errno, std::generic_category(), errors.string());
-  const pid_t child =
-      process::start_child("/usr/bin/env", arguments, {.out = out, .err = ::fileno(file)},
-                           {.when_parent_ends = SIGTERM});
-  std::fclose(file);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  std::string said = input::read_file(errors, kMessages);
+void run_reader(const std::vector<std::string>& arguments, int out, const input::Source& where) {
+  const process::PythonEnd end =
+      process::run_python(scenario::shipped_folder("tools/replay") / "read_bag.py", arguments, out);
+  if (end.is_fine) return;
+  std::string said = end.err;
   constexpr std::string_view kPrefix = "error: ";
   if (said.starts_with(kPrefix)) said.erase(0, kPrefix.size());
   if (said.starts_with(where.file + ": ")) said.erase(0, where.file.size() + 2);
@@ -87,11 +74,11 @@ bool is_bag(const fs::path& path) {
 
 Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   const auto folder = std::make_shared<TemporaryFolder>();
-  const fs::path errors = folder->path() / "errors.txt", made = folder->path() / "recording";
+  const fs::path made = folder->path() / "recording";
   const scenario::Recorded::Topics& topics = asked.topics;
   std::vector<std::string> arguments{fs::absolute(asked.path).string()};
   if (topics.image.empty()) {
-    run_reader(arguments, errors, STDOUT_FILENO, asked.source);
+    run_reader(arguments, STDOUT_FILENO, asked.source);
     throw input::Error(asked.source,
                        fmt::format("{} is a bag with the topics above; name that of its pictures "
                                    "(topics.image, or --image-topic), and of an IMU or poses",
@@ -106,7 +93,7 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
     if (!topic.empty()) arguments.push_back(fmt::format("{}={}", option, topic));
   }
   arguments.push_back("--out=" + made.string());
-  run_reader(arguments, errors, -1, asked.source);
+  run_reader(arguments, -1, asked.source);
 
   scenario::Recorded inner = asked;
   inner.path = made;

@@ -124,12 +124,13 @@ Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
 
 /// A generated sequence repeats `lcs.json` in each sensor.yaml for other readers. Throws if an edit
 /// made the two differ.
-void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
+void require_same(const fs::path& mav, const std::string& camera,
+                  const sequence::ReplaySettings& exact) {
   const auto is_same = [](double said, double number) {
     constexpr double kRounding = 1e-9;
     return std::abs(said - number) <= kRounding * std::max(1.0, std::abs(number));
   };
-  const auto read = [&](const char* sensor, const sim::Pose& T_BS, const auto& check) {
+  const auto read = [&](const std::string& sensor, const sim::Pose& T_BS, const auto& check) {
     const fs::path file = mav / sensor / "sensor.yaml";
     if (!fs::exists(file)) return;
     const SensorCalibration said = read_calibration(file);
@@ -150,7 +151,7 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
   };
   const auto nothing_else = [](const SensorCalibration&, const auto&) {};
   const sim::Calibration& told = exact.calibration;
-  read("cam0", told.T_BS.inverse() * told.T_BC,
+  read(camera, told.T_BS.inverse() * told.T_BC,
        [&](const SensorCalibration& said, const auto& require) {
          const double rate_hz = exact.scenario.camera.rate_hz;
          require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
@@ -185,7 +186,8 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
 }
 
 /// Sets the motion of a generated sequence from its own settings: the same bits as in the run.
-void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
+void move_as_run(const fs::path& mav, const std::string& camera,
+                 const sequence::ReplaySettings& exact, Recorded& recorded) {
   SensorReadings readings;
   const TableTimes times{"ns", {}, {}};
   readings.imu = read_imu_csv(mav / "imu0" / "data.csv", times, recorded.tally);
@@ -199,7 +201,7 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
                                      sequence::kSettingsFile));
     }
   }
-  const fs::path poses = mav / "cam0" / "pose.csv";
+  const fs::path poses = mav / camera / "pose.csv";
   if (recorded.settings.ego_motion == scenario::EgoMotionSource::truth || fs::exists(poses)) {
     readings.poses = read_pose_csv(poses, recorded.tally);
   }
@@ -212,6 +214,26 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= camera_ns;
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
+}
+
+/// The camera of a generated rig by its folder or its name in the scenario; if none is asked for,
+/// that of the run. Puts its lens and pose into the settings. \return its folder.
+std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySettings& exact) {
+  std::string names;
+  for (std::size_t place = 0; place < exact.cameras.size(); ++place) {
+    const sequence::ReplaySettings::Camera& one = exact.cameras[place];
+    const std::string folder = sequence::camera_name(place);
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", one.name, folder);
+    const bool is_it = asked.camera.empty() ? place == exact.filter_place
+                                            : asked.camera == one.name || asked.camera == folder;
+    if (!is_it) continue;
+    exact.lens = one.lens;
+    exact.calibration.T_BC = one.T_BC;
+    return folder;
+  }
+  throw input::Error(
+      asked.source,
+      fmt::format("no camera of the rig is called '{}'; give one of {}", asked.camera, names));
 }
 
 std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recorded& asked,
@@ -320,7 +342,11 @@ bool is_euroc(const fs::path& folder) {
 
 Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   const fs::path mav = mav_of(asked.path);
-  const std::string camera = asked.camera.empty() ? "cam0" : asked.camera;
+  const fs::path settings_file = asked.path / sequence::kSettingsFile;
+  std::optional<sequence::ReplaySettings> exact;
+  if (fs::exists(settings_file)) exact = sequence::read_settings(settings_file);
+  std::string camera = asked.camera.empty() ? "cam0" : asked.camera;
+  if (exact && !exact->cameras.empty()) camera = choose_camera(asked, *exact);
   const fs::path camera_folder = mav / camera;
   if (!fs::is_directory(camera_folder)) {
     throw input::Error(asked.source,
@@ -335,19 +361,19 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   } else {
     take_pictures(camera_folder / "data", asked.time_unit, recorded);
   }
-  const fs::path settings_file = asked.path / sequence::kSettingsFile;
-  if (fs::exists(settings_file)) {
-    const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
-    require_same(mav, exact);
-    recorded.settings = exact.scenario;
+  if (exact) {
+    require_same(mav, camera, *exact);
+    recorded.settings = exact->scenario;
     if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
-    recorded.lens = exact.lens;
+    recorded.lens = exact->lens;
     // The truth holds motions from each picture to the next.
-    const fs::path truth_file = asked.path / sequence::kTruthFile;
+    const bool is_first = camera == sequence::camera_name(0);
+    const fs::path truth_file =
+        (is_first ? asked.path : asked.path / camera) / sequence::kTruthFile;
     if (asked.every == 1 && fs::exists(truth_file)) {
       recorded.truth = bench::read_seen(truth_file);
     }
-    if (!motion_is_asked(asked)) move_as_run(mav, exact, recorded);
+    if (!motion_is_asked(asked)) move_as_run(mav, camera, *exact, recorded);
     return recorded;
   }
   recorded.lens = sensor.lens;

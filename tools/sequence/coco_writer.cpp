@@ -19,7 +19,7 @@ class CocoWriter : public Writer {
     const int image = frame.now.index + 1;
     output.rows["coco_images"] =
         fmt::format(R"({{"id":{},"file_name":"{}","width":{},"height":{}}})", image,
-                    picture_path(frame.stamp_ns), camera.width_px, camera.height_px);
+                    picture_path(frame.stamp_ns, info_.place), camera.width_px, camera.height_px);
     const int count = static_cast<int>(info_.objects.size());
     const cv::Rect picture(0, 0, camera.width_px, camera.height_px);
     std::string& rows = output.rows["coco_annotations"];

@@ -42,6 +42,10 @@ class EurocWriter : public Writer {
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Observation& o = frame.now;
+    const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
+    output.rows["camera_pose"] =
+        fmt::format("{},{}\n", frame.stamp_ns, numbers(std::span(T_WC).first(12), ","));
+    if (!info_.is_first()) return;
     std::string& imu = output.rows["imu"];
     for (const sim::ImuSample& sample : o.imu) {
       imu += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.gyro_radps),
@@ -59,26 +63,26 @@ class EurocWriter : public Writer {
       odometry += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.velocity_mps),
                               sample.yaw_rate_radps.value());
     }
-    const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
-    output.rows["camera_pose"] =
-        fmt::format("{},{}\n", frame.stamp_ns, numbers(std::span(T_WC).first(12), ","));
   }
 
   std::vector<Document> documents() const override {
-    const auto csv = [](const char* path, const char* header, const char* stream) {
+    const auto csv = [](const std::string& path, const char* header, const char* stream) {
       return Document{path, {{.text = header}, {.stream = stream}}};
     };
-    std::vector<Document> all{
+    const std::string camera = "mav0/" + camera_name(info_.place);
+    std::vector<Document> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
+                              {camera + "/sensor.yaml", {{.text = camera_yaml()}}}};
+    if (!info_.is_first()) return all;
+    const std::vector<Document> of_others{
         csv("mav0/imu0/data.csv", kImuHeader, "imu"),
         csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
-        csv("mav0/cam0/pose.csv", kPoseHeader, "camera_pose"),
         {"mav0/imu0/sensor.yaml", {{.text = imu_yaml()}}},
-        {"mav0/cam0/sensor.yaml", {{.text = camera_yaml()}}},
         {"mav0/state_groundtruth_estimate0/sensor.yaml",
          {{.text = sensor_yaml("visual-inertial",
                                "pose, velocity and biases of the IMU, exact, at its readings",
                                sim::Pose{})}}},
     };
+    all.insert(all.end(), of_others.begin(), of_others.end());
     if (info_.scenario.odometry.enabled) {
       all.push_back(csv("mav0/odometry0/data.csv", kOdometryHeader, "odometry"));
       all.push_back({"mav0/odometry0/sensor.yaml", {{.text = odometry_yaml()}}});
@@ -134,18 +138,23 @@ class EurocWriter : public Writer {
 
 }  // namespace
 
-std::string picture_path(std::int64_t stamp_ns) {
-  return fmt::format("mav0/cam0/data/{}.png", stamp_ns);
+std::string camera_name(std::size_t place) {
+  return fmt::format("cam{}", place);
+}
+
+std::string picture_path(std::int64_t stamp_ns, std::size_t place) {
+  return fmt::format("mav0/{}/data/{}.png", camera_name(place), stamp_ns);
 }
 
 void PictureWriter::write(const FrameView& frame, FrameOutput& output) const {
-  const std::string path = picture_path(frame.stamp_ns);
+  const std::string path = picture_path(frame.stamp_ns, place_);
   output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
   output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
 }
 
 std::vector<Document> PictureWriter::documents() const {
-  return {{"mav0/cam0/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+  return {{fmt::format("mav0/{}/data.csv", camera_name(place_)),
+           {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
 }
 
 std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info) {

@@ -29,6 +29,22 @@ Kalibr (`--formats kalibr`):
 
 * `kalibr/camchain.yaml`: intrinsics, distortion, `T_cam_imu`; `kalibr/imu.yaml`: noise of the IMU.
 )";
+constexpr std::string_view kKitti = R"(
+KITTI odometry (`--formats kitti`), of cameras without distortion, side by side:
+
+* `kitti/image_<i>/<k>.png`: the pictures of camera i under other names, in colour; `kitti/times.txt`: seconds, 0 at the
+  first frame; `kitti/poses.txt`: `T_WC` of camera 0, 12 numbers a line (KITTI's own begin at the identity).
+* `kitti/calib.txt`: `P<i>`, row by row, projects a point in camera 0 to the pixels of camera i.
+)";
+constexpr std::string_view kMcap = R"(
+ROS 2 (`--formats mcap`): `rosbag/`, a rosbag2 of MCAP, with standard messages:
+
+* `/cam<i>/image_raw/compressed`: the PNGs byte by byte, `/cam<i>/camera_info`, `/cam<i>/detections` (vision_msgs/Detection2DArray: the
+  box of what is seen of each object, `id` as in all files, pixels as above).
+* `/imu0`: readings, without an attitude; `/odometry0`: velocities by the wheels, in B, without a pose.
+* `/tf`: exact pose of S in W, `world` to `imu`; `/tf_static`: cameras (`cam<i>_optical`) and rover (`base`) in S;
+  `/truth/odometry`: exact pose of cam0 in W, and its velocity and body rate in C.
+)";
 constexpr std::string_view kMot = R"(
 MOTChallenge (`--formats mot`); frames, ids and pixels count from 1:
 
@@ -85,17 +101,51 @@ Landmarks (`--formats landmarks`):
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats{
-      {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer},
-      {"tum", "trajectories: TUM's text files", kTum, make_tum_writer},
+      {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer, 0,
+       260},
+      {"tum", "trajectories: TUM's text files", kTum, make_tum_writer, 0, 90},
       {"kalibr", "calibration of camera and IMU: Kalibr's YAML", kKalibr, make_kalibr_writer},
-      {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer},
-      {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer},
-      {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer},
-      {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, make_flow_writer},
-      {"depth", "depth: KITTI's 16-bit PNG", kDepth, make_depth_writer},
-      {"landmarks", "the truth of every corner, CSV", kLandmarks, make_landmarks_writer},
+      {"kitti", "pictures, projections and poses of rectified cameras: KITTI odometry", kKitti,
+       make_kitti_writer, 0.001, 0, false},
+      {"mcap", "messages of ROS 2 in a bag of MCAP; needs PyPI's rosbags", kMcap, make_mcap_writer,
+       0, 600, false, 1},
+      {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer, 0.002, 0},
+      {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer, 0.03, 0},
+      {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer, 0.015, 0},
+      {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, make_flow_writer, 16.6, 0},
+      {"depth", "depth: KITTI's 16-bit PNG", kDepth, make_depth_writer, 0.05, 0},
+      {"landmarks", "the truth of every corner, CSV", kLandmarks, make_landmarks_writer, 0.36, 0},
   };
   return kFormats;
+}
+
+const std::vector<Use>& uses() {
+  static const std::vector<Use> kUses{{"vio", {"euroc", "tum", "kalibr"}},
+                                      {"detection", {"mot", "coco", "davis"}},
+                                      {"flow", {"flow", "depth"}}};
+  return kUses;
+}
+
+double estimated_bytes(const scenario::Scenario& scenario,
+                       const std::vector<std::string>& formats) {
+  // Bytes a pixel of the PNG: noise is not compressible, unless JPEG smoothed it.
+  constexpr double kNoisy = 1.6, kSmooth = 0.4;
+  const bool is_noisy = scenario.image.noise && !scenario.image.jpeg_quality;
+  const double picture = is_noisy ? kNoisy : kSmooth;
+  double a_pixel = picture, a_reading = 0;
+  for (const std::string& name : formats) {
+    a_pixel += format(name).bytes_a_pixel + format(name).pictures * picture;
+    a_reading += format(name).bytes_a_reading;
+  }
+  double pixels = 0;
+  const std::size_t cameras = std::max<std::size_t>(1, scenario.cameras.size());
+  for (std::size_t place = 0; place < cameras; ++place) {
+    const scenario::Camera camera =
+        scenario.cameras.empty() ? scenario.camera : scenario.cameras[place].camera;
+    pixels += 1.0 * camera.width_px * camera.height_px;
+  }
+  const double readings = scenario.imu.rate_hz / scenario.camera.rate_hz;
+  return scenario.frames * (a_pixel * pixels + a_reading * readings);
 }
 
 const Format& format(std::string_view name) {

@@ -37,4 +37,12 @@ struct Document {
   std::vector<Part> parts;
 };
 
+/// \name The output of a camera at its own place: beside that of cam0 in the folders that a rig
+/// shares, else in a folder of its own as cam0's is in that of the sequence.
+/// \param camera as "cam1"; "": cam0.
+///@{
+FrameOutput of_camera(const std::string& camera, FrameOutput output);
+Document of_camera(const std::string& camera, Document document);
+///@}
+
 }  // namespace lcs::sequence

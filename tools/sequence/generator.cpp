@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "sim/simulation.h"
+#include "tools/files/output_file.h"
 #include "tools/files/sha256.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
@@ -28,20 +31,68 @@ constexpr const char* kScenarioFile = "scenario.yaml";
 std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
                                                 const GenerateOptions& options) {
   std::vector<std::unique_ptr<Writer>> writers;
-  writers.push_back(std::make_unique<PictureWriter>());
+  writers.push_back(std::make_unique<PictureWriter>(info.place));
   for (const std::string& name : options.formats) writers.push_back(format(name).make(info));
   return writers;
 }
 
-/// Checks and writes a frame.
+/// The cameras of a sequence. Each has a simulation of its own: their worlds are the same to the
+/// bit, and a camera of a rig sees all that a single camera sees.
+class Rig {
+ public:
+  /// \throws as `sim::Simulation`.
+  explicit Rig(const scenario::Scenario& scenario) : filter_place_(scenario.rig_place) {
+    const std::size_t count = std::max<std::size_t>(1, scenario.cameras.size());
+    for (std::size_t place = 0; place < count; ++place) {
+      scenarios_.push_back(scenario::seen_by(scenario, place));
+      simulations_.push_back(std::make_unique<sim::Simulation>(scenarios_.back()));
+      calibrations_.push_back(&simulations_.back()->calibration());
+    }
+  }
+
+  std::vector<SequenceInfo> infos() const {
+    std::vector<SequenceInfo> all;
+    for (std::size_t place = 0; place < simulations_.size(); ++place) {
+      const sim::Simulation& simulation = *simulations_[place];
+      all.push_back({scenarios_[place], simulation.calibration(), simulation.objects(),
+                     simulation.origin(), calibrations_, place});
+    }
+    return all;
+  }
+  /// Of the camera that detectors get.
+  const sim::Warnings& warnings() const { return simulations_[filter_place_]->warnings(); }
+  std::size_t filter_place() const { return filter_place_; }
+
+  void skip() {
+    for (const auto& simulation : simulations_) simulation->skip();
+  }
+  std::vector<sim::Observation> next() {
+    std::vector<sim::Observation> all;
+    for (const auto& simulation : simulations_) all.push_back(simulation->next().value());
+    return all;
+  }
+
+ private:
+  std::size_t filter_place_;
+  std::deque<scenario::Scenario> scenarios_;  // does not move them
+  std::vector<std::unique_ptr<sim::Simulation>> simulations_;
+  std::vector<const sim::Calibration*> calibrations_;
+};
+
+/// As `of_camera` takes it.
+std::string folder_of(const SequenceInfo& info) {
+  return info.is_first() ? "" : camera_name(info.place);
+}
+
+/// Checks and writes a frame of one camera.
 class FrameMaker {
  public:
-  FrameMaker(const SequenceInfo& info, const GenerateOptions& options, const Journal& journal)
-      : info_(info), journal_(journal), writers_(writers_of(info, options)) {}
+  FrameMaker(const SequenceInfo& info, const GenerateOptions& options)
+      : info_(info), writers_(writers_of(info, options)) {}
 
   /// \param next null for the scenario's last frame, whose flow and goals are not checked.
-  void make(const sim::Observation& now, const sim::Observation* next) const {
-    Agreements checks;
+  void make(const sim::Observation& now, const sim::Observation* next, FrameOutput& all,
+            Agreements& checks) const {
     check_times(info_.scenario, now);
     checks["imu_share_of_tolerance"].add(
         check_imu(info_.scenario.imu, info_.calibration.gravity_mps2, now));
@@ -62,12 +113,13 @@ class FrameMaker {
     for (const auto& writer : writers_) {
       writer->write({now, stamp_ns, mask, motion ? &*motion : nullptr}, output);
     }
-    journal_.add(now.index, output, checks);
+    output = of_camera(folder_of(info_), std::move(output));
+    std::ranges::move(output.files, std::back_inserter(all.files));
+    all.rows.merge(output.rows);
   }
 
  private:
-  const SequenceInfo& info_;
-  const Journal& journal_;
+  SequenceInfo info_;
   std::vector<std::unique_ptr<Writer>> writers_;
 };
 
@@ -107,17 +159,21 @@ class GrowingDocument {
   std::vector<std::string> rows_;
 };
 
-std::vector<GrowingDocument> documents_of(const SequenceInfo& info,
-                                          const GenerateOptions& options) {
+std::vector<GrowingDocument> documents_of(const Rig& rig, const GenerateOptions& options) {
   std::vector<GrowingDocument> all;
   const auto add_text = [&](const char* path, std::string text) {
     all.emplace_back(Document{path, {{.text = std::move(text)}}});
   };
-  add_text(kSettingsFile, settings_text(info.scenario, info.calibration, info.origin));
-  add_text(kScenarioFile, read_file(info.scenario.file));
-  add_text(kReadmeFile, readme_text(info, options.formats));
-  for (const auto& writer : writers_of(info, options)) {
-    for (Document& document : writer->documents()) all.emplace_back(std::move(document));
+  const std::vector<SequenceInfo> infos = rig.infos();
+  add_text(kSettingsFile, settings_text(infos[rig.filter_place()]));
+  add_text(kScenarioFile, read_file(infos.front().scenario.file));
+  add_text(kReadmeFile, readme_text(infos.front(), options.formats));
+  for (const SequenceInfo& info : infos) {
+    for (const auto& writer : writers_of(info, options)) {
+      for (Document& document : writer->documents()) {
+        all.emplace_back(of_camera(folder_of(info), std::move(document)));
+      }
+    }
   }
   return all;
 }
@@ -151,6 +207,7 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
       {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},
   };
+  if (std::ranges::count(options.formats, "mcap") > 0) plan["rosbags"] = bag_library();
   if (scenario.ego.drive == scenario::Drive::own) {
     plan["rover_sha256"] = sha256_of(scenario.ego.drive_file);
   }
@@ -162,7 +219,7 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
 }
 
 sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                              const Journal& journal, FrameRange range,
+                              Journal& journal, FrameRange range,
                               const std::function<void(int)>& on_frame) {
   std::set<int> missing;
   for (int k = range.first; k < range.last; ++k) {
@@ -172,47 +229,50 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
   on_frame(whole);
   if (missing.empty()) return {};
 
-  sim::Simulation simulation(scenario);
-  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects(),
-                          simulation.origin()};
+  Rig rig(scenario);
   std::vector<std::filesystem::path> later{kManifestFile};
-  for (const GrowingDocument& document : documents_of(info, options)) {
+  for (const GrowingDocument& document : documents_of(rig, options)) {
     later.emplace_back(document.path());
   }
   journal.require_unwritten(later, *missing.begin());
-  const FrameMaker maker(info, options, journal);
-  std::optional<sim::Observation> last;  // until its next frame is simulated
-  const auto make = [&](const sim::Observation& now, const sim::Observation* next) {
-    maker.make(now, next);
+  std::vector<FrameMaker> makers;
+  for (const SequenceInfo& info : rig.infos()) makers.emplace_back(info, options);
+  std::vector<sim::Observation> last;  // until its next frame is simulated
+  const auto make = [&](const std::vector<sim::Observation>& now,
+                        const std::vector<sim::Observation>& next) {
+    FrameOutput output;
+    Agreements checks;
+    for (std::size_t i = 0; i < makers.size(); ++i) {
+      makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
+    }
+    journal.add(now.front().index, output, checks);
     on_frame(++whole);
   };
-  for (int k = *missing.begin(); k > 0; --k) simulation.skip();
-  for (int k = *missing.begin(); k < scenario.frames && (last || k <= *missing.rbegin()); ++k) {
+  for (int k = *missing.begin(); k > 0; --k) rig.skip();
+  for (int k = *missing.begin(); k < scenario.frames && (!last.empty() || k <= *missing.rbegin());
+       ++k) {
     const bool is_missing = missing.contains(k);
-    if (!is_missing && !last) {
-      simulation.skip();
+    if (!is_missing && last.empty()) {
+      rig.skip();
       continue;
     }
-    std::optional<sim::Observation> now = simulation.next();
-    if (last) make(*last, &*now);
-    last.reset();
+    std::vector<sim::Observation> now = rig.next();
+    if (!last.empty()) make(last, now);
+    last.clear();
     if (!is_missing) continue;
     if (k + 1 < scenario.frames) {
       last = std::move(now);
     } else {
-      make(*now, nullptr);
+      make(now, {});
     }
   }
-  return simulation.warnings();
+  return rig.warnings();
 }
 
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
-                                         const GenerateOptions& options, const std::string& plan,
-                                         Journal& journal) {
-  const sim::Simulation simulation(scenario);  // for mounting and objects
-  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects(),
-                          simulation.origin()};
-  std::vector<GrowingDocument> documents = documents_of(info, options);
+                                         const GenerateOptions& options, Journal& journal) {
+  const Rig rig(scenario);  // for mounting and objects
+  std::vector<GrowingDocument> documents = documents_of(rig, options);
   Agreements checks;
   std::vector<FileRecord> files;
   for (int k = 0; k < scenario.frames; ++k) {
@@ -233,6 +293,17 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
   }
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
+    if (document.path() == kBagFile) {
+      const std::filesystem::path folder = std::filesystem::path(kBagFile).parent_path();
+      std::ranges::move(journal.add_folder(folder,
+                                           [&](const std::filesystem::path& out) {
+                                             const auto messages = out.parent_path() / "messages";
+                                             bench::write_file(messages, text);
+                                             write_bag(messages, journal.folder(), out);
+                                           }),
+                        std::back_inserter(files));
+      continue;
+    }
     journal.write(document.path(), text);
     files.push_back({document.path(), text.size(), bench::sha256(text)});
     if (document.is_empty()) {
@@ -240,7 +311,7 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
           fmt::format("{} is empty: there is nothing to tell in any frame", document.path()));
     }
   }
-  journal.write(kManifestFile, manifest_text(plan, checks, std::move(files)));
+  journal.write(kManifestFile, manifest_text(journal.plan(), checks, std::move(files)));
   journal.close();
   for (const auto& [name, agreement] : checks) {
     notes.push_back(fmt::format("checked {}: at most {:.2g} over {} comparisons", name,

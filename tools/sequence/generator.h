@@ -37,14 +37,13 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
 /// \return the simulation's warnings up to the last missing frame; empty if none was missing.
 /// \throws TruthError, sim::PhysicsError, bench::OutputError
 sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                              const Journal& journal, FrameRange range,
+                              Journal& journal, FrameRange range,
                               const std::function<void(int)>& on_frame);
 
 /// Writes the files that need all frames, the manifest last, and closes the journal.
 /// \return readable lines: the sequence's contents, and its empty files.
 /// \throws bench::OutputError; std::runtime_error if a frame is incomplete.
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
-                                         const GenerateOptions& options, const std::string& plan,
-                                         Journal& journal);
+                                         const GenerateOptions& options, Journal& journal);
 
 }  // namespace lcs::sequence

@@ -1,6 +1,7 @@
 // Kalibr's YAML: the camera with its pose on the IMU and its time offset, and noise and errors of
 // the IMU.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/writers.h"
@@ -15,31 +16,42 @@ class KalibrWriter : public Writer {
   void write(const FrameView&, FrameOutput&) const override {}
 
   std::vector<Document> documents() const override {
-    return {{"kalibr/camchain.yaml", {{.text = camchain()}}},
-            {"kalibr/imu.yaml", {{.text = imu()}}}};
+    if (!info_.is_first()) return {};
+    std::string camchain;
+    for (std::size_t place = 0; place < info_.rig.size(); ++place) camchain += camera(place);
+    return {{"kalibr/camchain.yaml", {{.text = camchain}}}, {"kalibr/imu.yaml", {{.text = imu()}}}};
   }
 
  private:
-  std::string camchain() const {
-    const sim::Lens& lens = info_.calibration.optics.lens();
-    const std::vector<double> coefficients = four_coefficients(lens);
-    const sim::Pose T_CS = info_.calibration.T_BC.inverse() * info_.calibration.T_BS;
-    const std::array<double, 16> matrix = matrix_of(T_CS);
-    std::string rows;
+  static std::string rows(const sim::Pose& pose) {
+    const std::array<double, 16> matrix = matrix_of(pose);
+    std::string text;
     for (std::size_t row = 0; row < 4; ++row) {
-      rows += fmt::format("  - [{}]\n", numbers(std::span(matrix).subspan(4 * row, 4), ", "));
+      text += fmt::format("  - [{}]\n", numbers(std::span(matrix).subspan(4 * row, 4), ", "));
+    }
+    return text;
+  }
+
+  std::string camera(std::size_t place) const {
+    const sim::Calibration& own = *info_.rig[place];
+    const sim::Lens& lens = own.optics.lens();
+    const std::vector<double> coefficients = four_coefficients(lens);
+    std::vector<std::size_t> others;  // views are taken to overlap
+    for (std::size_t i = 0; i < info_.rig.size(); ++i) {
+      if (i != place) others.push_back(i);
     }
     return fmt::format(
-        "cam0:\n  cam_overlaps: []\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
+        "{}:\n{}  cam_overlaps: [{}]\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
         "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
-        "  rostopic: /cam0/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}\n{}",
-        numbers(coefficients, ", "),
+        "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}\n{}",
+        camera_name(place),
+        place == 0 ? "" : "  T_cn_cnm1:\n" + rows(between(own, *info_.rig[place - 1])),
+        fmt::join(others, ", "), numbers(coefficients, ", "),
         coefficients.size() > 4 ? "  # the fifth is k3, which Kalibr lacks" : "",
         lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan",
-        lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px, rows,
-        info_.calibration.time_offset_s == 0 ? "0.0"
-                                             : fmt::format("{}", info_.calibration.time_offset_s),
-        shutter());
+        lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px,
+        camera_name(place), rows(own.T_BC.inverse() * own.T_BS),
+        own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s), shutter(place));
   }
 
   std::string imu() const {
@@ -54,8 +66,9 @@ class KalibrWriter : public Writer {
   }
 
   /// Kalibr's camera-IMU calibration has no place for it.
-  std::string shutter() const {
-    const scenario::Camera& camera = info_.scenario.camera;
+  std::string shutter(std::size_t place) const {
+    const std::vector<scenario::RigCamera>& rig = info_.scenario.cameras;
+    const scenario::Camera& camera = rig.empty() ? info_.scenario.camera : rig[place].camera;
     if (camera.rolling_shutter_s == 0) return "";
     return fmt::format("  # rolling shutter: row y is {} s times y later than the first row\n",
                        camera.rolling_shutter_s / camera.height_px);

@@ -42,21 +42,38 @@ nlohmann::json plan_in_manifest(const fs::path& manifest) {
   return json.is_object() && json.contains("plan") ? json.at("plan") : nlohmann::json();
 }
 
-std::vector<std::string> damage(const fs::path& folder) {
+namespace {
+
+/// Calls `take(path, SHA-256)` for each file in a manifest.
+template <class Take>
+void each_file(const fs::path& manifest, const Take& take) {
   // One file of each kind per frame, for a million frames.
   constexpr input::FileKind kManifestDocument{4 * input::kGibibyte,
                                               "remove the folder to make the sequence anew"};
-  std::vector<std::string> damaged;
-  bench::read_json(folder / kManifestFile, kManifestDocument, [&](const bench::JsonNode& node) {
+  bench::read_json(manifest, kManifestDocument, [&](const bench::JsonNode& node) {
     node["files"].each_entry([&](const std::string& path, const bench::JsonNode& record) {
-      const std::string sha256 = record["sha256"].text();
-      std::error_code error;
-      if (!fs::is_regular_file(folder / path, error)) {
-        damaged.push_back(path + " is missing");
-      } else if (bench::sha256_of_file(folder / path) != sha256) {
-        damaged.push_back(path + " has other bytes than the manifest says");
-      }
+      take(path, record["sha256"].text());
     });
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> files_in_manifest(const fs::path& manifest) {
+  std::vector<std::string> paths;
+  each_file(manifest, [&](const std::string& path, const std::string&) { paths.push_back(path); });
+  return paths;
+}
+
+std::vector<std::string> damage(const fs::path& folder) {
+  std::vector<std::string> damaged;
+  each_file(folder / kManifestFile, [&](const std::string& path, const std::string& sha256) {
+    std::error_code error;
+    if (!fs::is_regular_file(folder / path, error)) {
+      damaged.push_back(path + " is missing");
+    } else if (bench::sha256_of_file(folder / path) != sha256) {
+      damaged.push_back(path + " has other bytes than the manifest says");
+    }
   });
   return damaged;
 }

@@ -24,6 +24,9 @@ nlohmann::json read_plan(const std::filesystem::path& file);
 /// The plan of a finished sequence; not an object if the file is not a manifest. \throws as above.
 nlohmann::json plan_in_manifest(const std::filesystem::path& manifest);
 
+/// The paths of the files of a finished sequence, without the manifest. \throws as `damage`.
+std::vector<std::string> files_in_manifest(const std::filesystem::path& manifest);
+
 /// Missing or changed files of a sequence, each with its fault.
 /// \throws std::runtime_error for an unreadable manifest.
 std::vector<std::string> damage(const std::filesystem::path& folder);

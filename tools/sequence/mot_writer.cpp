@@ -14,8 +14,8 @@ class MotWriter : public Writer {
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const int number = frame.now.index + 1;
-    output.files.push_back(
-        {fmt::format("{}/img1/{:06}.png", folder_, number), "", picture_path(frame.stamp_ns)});
+    output.files.push_back({fmt::format("{}/img1/{:06}.png", folder_, number), "",
+                            picture_path(frame.stamp_ns, info_.place)});
     std::string& rows = output.rows["mot"];
     for (const sim::ObjectTruth& object : frame.now.objects) {
       const ObjectKind kind =

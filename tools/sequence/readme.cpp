@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/sequence/pose_text.h"
@@ -100,6 +101,26 @@ belong to the very same moment; {clocks}
       fmt::arg("clocks", clocks_text(s.camera)));
 }
 
+/// The cameras of a rig.
+std::string rig_text(const SequenceInfo& info) {
+  const std::vector<scenario::RigCamera>& cameras = info.scenario.cameras;
+  if (cameras.empty()) return "";
+  std::string text =
+      "\n## Cameras\n\nAll take their pictures at the same instants. Files of another camera than "
+      "cam0 "
+      "are in a folder of its\nname, as `cam1/depth/<k>.png` beside `depth/<k>.png`, except in "
+      "`mav0/` and `kitti/`, which have a place for each.\n`kalibr/camchain.yaml` has their poses "
+      "to each other, `lcs.json` that in the rover (`T_BC`).\n\n| folder | name | camera "
+      "|\n|---|---|"
+      "---|\n";
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::string lens = camera_text(info.rig[i]->optics.lens());
+    std::ranges::replace(lens, '\n', ' ');
+    text += fmt::format("| {} | {} | {} |\n", camera_name(i), cameras[i].name, lens);
+  }
+  return text;
+}
+
 constexpr const char* kPictures = R"(
 * `mav0/cam0/data/<ns>.png`, `mav0/cam0/data.csv`: the pictures, 8-bit colour, and their list.
 * `lcs.json`: how `lcs replay` sets up the detectors for the same bits as `lcs run` gives; `origin` is the world of `lcs world` that the pictures are of, if they are of one.
@@ -119,6 +140,7 @@ Ids are the same in all files:
 
 std::string readme_text(const SequenceInfo& info, const std::vector<std::string>& formats) {
   std::string text = head(info) + kPictures;
+  text.insert(text.find("\n## Files"), rig_text(info));
   for (const std::string& name : formats) text += format(name).readme;
   text += kObjects;
   for (const sim::Object& object : info.objects) {

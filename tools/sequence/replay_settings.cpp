@@ -76,11 +76,9 @@ sim::Pose pose_in(const Node& node) {
   }
 }
 
-void read_calibration(const Node& node, const std::string& file, ReplaySettings& settings) {
-  sim::Calibration& calibration = settings.calibration;
-  const Node camera = node["camera"];
+sim::Lens lens_in(const Node& camera, const std::string& file) {
   const auto centre = camera["centre_px"].numbers<2>();
-  sim::Lens& lens = settings.lens;
+  sim::Lens lens;
   const Node focal = camera["focal_px"];
   const auto focal_px =
       focal.is_list() ? focal.numbers<2>() : std::array{focal.number(), focal.number()};
@@ -103,6 +101,21 @@ void read_calibration(const Node& node, const std::string& file, ReplaySettings&
                          read.equidistant ? "a list of 4 numbers" : "a list of 5 numbers");
     require_moderate(coefficients, read.coefficients);
     sim::set_distortion(read, lens);
+  }
+  return lens;
+}
+
+void read_calibration(const Node& node, const std::string& file, ReplaySettings& settings) {
+  sim::Calibration& calibration = settings.calibration;
+  settings.lens = lens_in(node["camera"], file);
+  if (node.has("cameras")) {
+    node["cameras"].each([&](const Node& one) {
+      settings.cameras.push_back(
+          {one["name"].text(), lens_in(one["camera"], file), pose_in(one["T_BC"])});
+    });
+    settings.filter_place = node["filter_place"].natural<std::size_t>();
+    node["filter_place"].require(settings.filter_place < settings.cameras.size(),
+                                 "the place of one of the cameras");
   }
   calibration.T_BC = pose_in(node["T_BC"]);
   calibration.T_BS = pose_in(node["T_BS"]);
@@ -146,11 +159,7 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   });
 }
 
-}  // namespace
-
-std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
-                          const std::optional<scenario::Origin>& origin) {
-  const sim::Lens& lens = calibration.optics.lens();
+Json lens_json(const sim::Lens& lens) {
   Json camera = {
       {"focal_px", lens.fu_px == lens.fv_px ? Json(lens.fu_px) : Json{lens.fu_px, lens.fv_px}},
       {"centre_px", {lens.cu_px, lens.cv_px}},
@@ -161,6 +170,14 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
     camera["distortion"] =
         is_fisheye ? Json{{kEquidistant, lens.coefficients}} : Json(lens.coefficients);
   }
+  return camera;
+}
+
+}  // namespace
+
+std::string settings_text(const SequenceInfo& info) {
+  const scenario::Scenario& scenario = info.scenario;
+  const sim::Calibration& calibration = info.calibration;
   Json noise;
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
   Json filter = Json::object();
@@ -172,7 +189,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"seed", scenario.seed},
       {"start_ns", kEpoch_ns},
       {"camera_rate_hz", scenario.camera.rate_hz},
-      {"camera", camera},
+      {"camera", lens_json(calibration.optics.lens())},
       {"T_BC", matrix_of(calibration.T_BC)},
       {"T_BS", matrix_of(calibration.T_BS)},
       {"T_WB_start", matrix_of(calibration.T_WB_start)},
@@ -190,7 +207,15 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"filter", filter},
   };
   if (calibration.time_offset_s != 0) json["time_offset_s"] = calibration.time_offset_s;
-  if (origin) json["origin"] = {{"family", origin->family}, {"seed", origin->seed}};
+  if (info.origin) {
+    json["origin"] = {{"family", info.origin->family}, {"seed", info.origin->seed}};
+  }
+  for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
+    json["cameras"].push_back({{"name", scenario.cameras[i].name},
+                               {"camera", lens_json(info.rig[i]->optics.lens())},
+                               {"T_BC", matrix_of(info.rig[i]->T_BC)}});
+    json["filter_place"] = info.place;
+  }
   return json.dump(2) + "\n";
 }
 

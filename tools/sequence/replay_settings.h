@@ -13,6 +13,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 
@@ -35,12 +36,19 @@ struct ReplaySettings {
   scenario::Scenario scenario;
   sim::Calibration calibration;  ///< without optics and camera
   sim::Lens lens;                ///< of the pictures
-  std::int64_t start_ns = 0;     ///< the run's time 0, in the sequence's time
+  /// Of a rig: cam0, cam1 and so on; `lens` and the calibration are those of `filter_place`.
+  struct Camera {
+    std::string name;  ///< in the scenario
+    sim::Lens lens;
+    sim::Pose T_BC;
+  };
+  std::vector<Camera> cameras;
+  std::size_t filter_place = 0;
+  std::int64_t start_ns = 0;  ///< the run's time 0, in the sequence's time
 };
 
-/// \param origin the world of the pictures, from the simulation.
-std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
-                          const std::optional<scenario::Origin>& origin);
+/// \param info of the camera that detectors get.
+std::string settings_text(const SequenceInfo& info);
 
 /// \throws std::runtime_error with file and key.
 ReplaySettings read_settings(const std::filesystem::path& file);

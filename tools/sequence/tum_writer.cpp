@@ -16,22 +16,29 @@ std::string line_of(std::int64_t ns, const sim::Pose& pose) {
 
 class TumWriter : public Writer {
  public:
+  explicit TumWriter(const SequenceInfo& info) : has_imu_(info.is_first()) {}
+
   void write(const FrameView& frame, FrameOutput& output) const override {
     output.rows["tum_camera"] = line_of(frame.stamp_ns, frame.now.truth.now.T_WC);
+    if (!has_imu_) return;
     std::string& imu = output.rows["tum_imu"];
     for (const sim::ImuTruth& state : frame.now.imu_truth)
       imu += line_of(kEpoch_ns + state.t_ns, state.T_WS);
   }
   std::vector<Document> documents() const override {
-    return {{"tum/camera.txt", {{.stream = "tum_camera"}}},
-            {"tum/imu.txt", {{.stream = "tum_imu"}}}};
+    std::vector<Document> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
+    if (has_imu_) all.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
+    return all;
   }
+
+ private:
+  bool has_imu_;
 };
 
 }  // namespace
 
-std::unique_ptr<Writer> make_tum_writer(const SequenceInfo&) {
-  return std::make_unique<TumWriter>();
+std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info) {
+  return std::make_unique<TumWriter>(info);
 }
 
 }  // namespace lcs::sequence

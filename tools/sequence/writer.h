@@ -21,13 +21,26 @@ namespace lcs::sequence {
 /// them.
 inline constexpr std::int64_t kEpoch_ns = 1'000'000'000'000'000'000;
 
-/// Data common to all frames. The references must outlive the writers.
+/// Data common to all frames of one camera. The references must outlive the writers.
 struct SequenceInfo {
-  const scenario::Scenario& scenario;
+  const scenario::Scenario& scenario;  ///< as the camera sees it
   const sim::Calibration& calibration;
   const std::vector<sim::Object>& objects;
   const std::optional<scenario::Origin>& origin;
+  const std::vector<const sim::Calibration*>& rig;  ///< of all cameras of the sequence, cam0 first
+  std::size_t place = 0;                            ///< of the camera in `rig`
+
+  /// Whether it is cam0, whose writers have the files of the other sensors, too.
+  bool is_first() const { return place == 0; }
 };
+
+/// The name of a camera's folder in EuRoC's layout. \param place in the rig, from 0.
+std::string camera_name(std::size_t place);
+
+/// T_ab between two cameras of the rig, by their poses in the rover's frame.
+inline sim::Pose between(const sim::Calibration& a, const sim::Calibration& b) {
+  return a.T_BC.inverse() * b.T_BC;
+}
 
 struct FrameView {
   const sim::Observation& now;
@@ -42,7 +55,8 @@ class Writer {
 
   /// A pure function of the frame, so that frames may be written in any order and by any process.
   virtual void write(const FrameView& frame, FrameOutput& output) const = 0;
-  /// Files that contain the rows of all frames.
+  /// Files that contain the rows of all frames. Their paths, and those of a frame's files, are
+  /// those of cam0: `of_camera` moves the others'.
   virtual std::vector<Document> documents() const = 0;
 };
 
@@ -52,6 +66,10 @@ struct Format {
   std::string_view purpose;  ///< one readable line
   std::string_view readme;   ///< its files, as list items for a sequence's README
   std::unique_ptr<Writer> (*make)(const SequenceInfo& info);
+  double bytes_a_pixel = 0;    ///< of its files, for `estimated_bytes`
+  double bytes_a_reading = 0;  ///< likewise, for each reading of the IMU
+  bool is_usual = true;        ///< written if no formats are named
+  int pictures = 0;            ///< copies of the pictures that it has
 };
 
 /// All formats, in the order in which they are written.
@@ -60,7 +78,17 @@ const std::vector<Format>& formats();
 /// \throws std::invalid_argument with the names of all formats.
 const Format& format(std::string_view name);
 
+/// A use of sequences, and the formats that it takes.
+struct Use {
+  std::string_view name;
+  std::vector<std::string> formats;
+};
+const std::vector<Use>& uses();
+
+/// The bytes of a sequence, to a factor of two, by the number of its pixels and readings.
+double estimated_bytes(const scenario::Scenario& scenario, const std::vector<std::string>& formats);
+
 /// Path of the picture with a stamp, which is written for any formats.
-std::string picture_path(std::int64_t stamp_ns);
+std::string picture_path(std::int64_t stamp_ns, std::size_t place = 0);
 
 }  // namespace lcs::sequence

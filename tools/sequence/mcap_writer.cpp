@@ -1,0 +1,144 @@
+// ROS 2 messages in a bag of MCAP. The rows are JSON, which write_bag.py turns into the bag by
+// PyPI's rosbags.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "scenarios/shipped.h"
+#include "tools/input/message.h"
+#include "tools/process/python.h"
+#include "tools/sequence/objects.h"
+#include "tools/sequence/pose_text.h"
+#include "tools/sequence/writers.h"
+
+namespace lcs::sequence {
+namespace {
+
+using Json = nlohmann::json;
+
+Json numbers_of(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// x y z qx qy qz qw.
+Json pose_json(const sim::Pose& pose) {
+  const Eigen::Quaterniond q = quaternion_of(pose);
+  return {pose.p.x(), pose.p.y(), pose.p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+/// A row that begins with a time.
+Json timed(std::int64_t t_ns, std::initializer_list<Json> lists) {
+  Json row = {kEpoch_ns + t_ns};
+  for (const Json& list : lists) row.insert(row.end(), list.begin(), list.end());
+  return row;
+}
+
+std::string frame_name(std::size_t place) {
+  return camera_name(place) + "_optical";
+}
+
+class McapWriter : public Writer {
+ public:
+  explicit McapWriter(const SequenceInfo& info) : info_(info) {}
+
+  void write(const FrameView& frame, FrameOutput& output) const override {
+    const sim::Observation& o = frame.now;
+    Json json{{"t", frame.stamp_ns},
+              {"place", info_.place},
+              {"picture", picture_path(frame.stamp_ns, info_.place)},
+              {"boxes", Json::array()}};
+    for (const sim::ObjectTruth& box : o.objects) {
+      const sim::Object& object = info_.objects.at(static_cast<std::size_t>(box.object - 1));
+      json["boxes"].push_back({box.object, kind_of(info_.scenario, object).category, box.left,
+                               box.top, box.right, box.bottom});
+    }
+    if (info_.is_first()) {
+      for (const char* key : {"imu", "states", "wheels"}) json[key] = Json::array();
+      for (const sim::ImuSample& sample : o.imu) {
+        json["imu"].push_back(
+            timed(sample.t_ns, {numbers_of(sample.gyro_radps), numbers_of(sample.accel_mps2)}));
+      }
+      for (const sim::ImuTruth& state : o.imu_truth) {
+        json["states"].push_back(timed(state.t_ns, {pose_json(state.T_WS)}));
+      }
+      for (const sim::OdometrySample& sample : o.odometry) {
+        json["wheels"].push_back(timed(
+            sample.t_ns, {numbers_of(sample.velocity_mps), Json::array({*sample.yaw_rate_radps})}));
+      }
+      const sim::Pose& T_WC = o.truth.now.T_WC;
+      json["truth"] = {{"t", kEpoch_ns + o.t_ns},  // by the clock of the IMU
+                       {"T_WC", pose_json(T_WC)},
+                       {"v_C", numbers_of(T_WC.R.transpose() * o.truth.v_WC_mps)},
+                       {"w_C", numbers_of(o.truth.w_C_radps)}};
+    }
+    output.rows["mcap"] = json.dump() + "\n";
+  }
+
+  std::vector<Document> documents() const override {
+    if (!info_.is_first()) return {};
+    Document bag{kBagFile, {{.text = sensors().dump() + "\n"}}};
+    for (std::size_t place = 0; place < info_.rig.size(); ++place) {
+      const std::string of = place == 0 ? "" : camera_name(place) + "/";
+      bag.parts.push_back({.stream = of + "mcap"});
+    }
+    return {bag};
+  }
+
+ private:
+  Json sensors() const {
+    const scenario::Imu& imu = info_.scenario.imu;
+    const scenario::Odometry& wheels = info_.scenario.odometry;
+    const auto variance = [&](double density) { return density * density * imu.rate_hz; };
+    const double v = std::pow(wheels.noise_mps, 2), yaw = std::pow(wheels.yaw_noise_radps, 2);
+    Json json{{"start", kEpoch_ns},
+              {"imu_variances",
+               {variance(imu.noise.gyroscope_noise_density),
+                variance(imu.noise.accelerometer_noise_density)}},
+              {"wheel_variances", {v, v, 0, 0, 0, yaw}}};
+    const sim::Pose T_SB = info_.calibration.T_BS.inverse();
+    json["links"]["base"] = pose_json(T_SB);
+    for (std::size_t i = 0; i < info_.rig.size(); ++i) {
+      const sim::Lens& lens = info_.rig[i]->optics.lens();
+      const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
+      json["links"][frame_name(i)] = pose_json(T_SB * info_.rig[i]->T_BC);
+      json["cameras"].push_back(
+          {{"frame", frame_name(i)},
+           {"width", lens.width_px},
+           {"height", lens.height_px},
+           {"intrinsics", {lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px}},
+           {"P_03", -lens.fu_px * between(*info_.rig[0], *info_.rig[i]).p.x()},
+           {"model", is_fisheye ? "equidistant" : "plumb_bob"},
+           {"distortion", lens.coefficients.empty() ? std::vector<double>(5) : lens.coefficients}});
+    }
+    return json;
+  }
+
+  SequenceInfo info_;
+};
+
+process::PythonEnd run_script(const std::vector<std::string>& arguments) {
+  process::PythonEnd end =
+      process::run_python(scenario::shipped_folder("tools/sequence") / "write_bag.py", arguments);
+  if (end.is_fine) return end;
+  throw std::runtime_error(end.err.empty() ? "the bag was not written to its end; run it again"
+                                           : input::one_line(end.err));
+}
+
+}  // namespace
+
+std::string bag_library() {
+  return run_script({"--version"}).out;
+}
+
+void write_bag(const std::filesystem::path& messages, const std::filesystem::path& sequence,
+               const std::filesystem::path& out) {
+  run_script({messages.string(), sequence.string(), out.string()});
+}
+
+std::unique_ptr<Writer> make_mcap_writer(const SequenceInfo& info) {
+  return std::make_unique<McapWriter>(info);
+}
+
+}  // namespace lcs::sequence
