@@ -72,6 +72,7 @@ cam0:
   intrinsics: [458.5, 457.25, 367.5, 248.25]
   resolution: [752, 480]
   rostopic: /cam0/image_raw
+  timeshift_cam_imu: -0.00812
 cam1:
   T_cn_cnm1: [[1, 0, 0, -0.11], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
   camera_model: omni
@@ -83,6 +84,7 @@ cam1:
   expect_lens(left.lens, {-0.25, 0.07, 0.0002, 1.5e-05});
   expect_size(left.lens);
   expect_ahead(left.T_BS);
+  EXPECT_EQ(left.time_offset_s, -0.00812);
   const SensorCalibration right = read(chain, "cam1");
   expect_lens(right.lens, {0.1, 0.2, 0.3, 0.4});
   EXPECT_EQ(right.lens->xi, 1.5);

@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
+#include <regex>
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/input/document.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
 #include "tools/scoring/figures_file.h"
@@ -68,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                          {"frames=6", "camera.focal=[420, 410]", "camera.centre=[330, 225]",
                           "camera.distortion=[-0.28, 0.07, 0.0002, 0.00002, 0]"}},
                     Case{"CarriedFisheye", "examples/flying.yaml", {"frames=6"}},
+                    Case{"AnotherClock", "crossing.yaml", {"frames=6", "camera.time_offset=12 ms"}},
                     Case{"GapInTheImu", "suite/imu_gap.yaml", {"frames=22"}}),
     [](const auto& test) { return test.param.name; });
 
@@ -81,6 +85,23 @@ TEST_P(GeneratedReplayOf, HasEveryBitOfTheRun) {
   EXPECT_NE(of_run.find("\"signatures\":\""), std::string::npos);
   EXPECT_TRUE(layers("replay") == of_run)
       << "motion, corners, signatures, verdicts and layers, as text";
+}
+
+/// The times of its frames are those that the filter is told, 7 ms before those of the run.
+TEST_F(GeneratedReplay, HasTheMotionOfARunThatIsToldAWrongClock) {
+  const std::vector<std::string> sets{"frames=4", "camera.time_offset=12 ms",
+                                      "camera.told.time_offset_error=-7 ms"};
+  make("run", "crossing.yaml", sets, {"--no-video", "--out", home_.path() / "run"});
+  make("generate", "crossing.yaml", sets,
+       {"--formats", "euroc", "--out", home_.path() / "sequence"});
+  const CommandResult result = replay();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto without_times = [](const std::string& text) {
+    return std::regex_replace(text, std::regex(R"("t_ns":-?\d+)"), "");
+  };
+  EXPECT_NE(layers("run").find("\"t_ns\":200000000"), std::string::npos);
+  EXPECT_NE(layers("replay").find("\"t_ns\":193000000"), std::string::npos);
+  EXPECT_TRUE(without_times(layers("replay")) == without_times(layers("run")));
 }
 
 TEST_F(GeneratedReplay, HasTheLensAndItsPlaceInEveryCalibration) {
@@ -103,6 +124,15 @@ TEST_F(GeneratedReplay, HasTheLensAndItsPlaceInEveryCalibration) {
   const auto imu = replay::read_calibration(home_.path() / "sequence/kalibr/imu.yaml");
   EXPECT_EQ(imu.noise.value().gyroscope_noise_density, 1.6968e-4);
   EXPECT_EQ(imu.rate_hz, 200);
+  const auto chain = replay::read_calibration(home_.path() / "sequence/kalibr/camchain.yaml");
+  EXPECT_EQ(chain.time_offset_s, 0.004);
+  const input::Value yaml = input::parse_file(home_.path() / "sequence/kalibr/imu.yaml");
+  const auto at = [](const input::Value& map, std::string_view key) {
+    return std::ranges::find(map.entries, key, &input::Entry::key)->value;
+  };
+  EXPECT_EQ(at(yaml, "model").text, "scale-misalignment");
+  EXPECT_EQ(at(at(yaml, "gyroscopes"), "M").items[1].items[0].text, "-0.002");
+  EXPECT_EQ(at(at(yaml, "accelerometers"), "M").items[2].items[2].text, "1.002");
 }
 
 /// Figures except times and those that the world determines.

@@ -259,6 +259,22 @@ Statement drift(const Study& study, const std::string& imu) {
   return s;
 }
 
+/// The cost of each property of a real camera that the model of a pinhole in an instant leaves out.
+Statement real_camera(const Study& study) {
+  const LeftOut& left_out = study.left_out;
+  const double worst_px =
+      std::max({left_out.distortion_px, left_out.readout_px, left_out.offset_px});
+  return {
+      "camera",
+      fmt::format("configured drive: error (95 %) of points at 1 m to 16 m if the distortion, a "
+                  "readout of {:g} ms, or an offset of the clocks of {:g} ms is left in",
+                  1e3 * left_out.readout_s, 1e3 * left_out.offset_s),
+      {{"camera.distortion.p95", left_out.distortion_px, "px", kUnknown},
+       {"camera.rolling_shutter.p95", left_out.readout_px, "px", left_out.expected_readout_px},
+       {"camera.time_offset.p95", left_out.offset_px, "px", left_out.expected_offset_px}},
+      verdict_on(study, worst_px, "for the worst of them")};
+}
+
 }  // namespace
 
 std::vector<Statement> answer(const Study& study) {
@@ -267,6 +283,7 @@ std::vector<Statement> answer(const Study& study) {
       first_order(study, points), homography(study), as_printed(study, points), true_depth(study),
       depth_sources(study),       imu_noise(study),  mount(study, points),      bumps(study)};
   for (const NamedImu& imu : imus(study.config)) all.push_back(drift(study, imu.name));
+  all.push_back(real_camera(study));
   // The filter's rotation, the learnt depth, and the first statement of each other topic.
   const bool is_exact = field_of(study.config.filter).rotation == RotationModel::homography;
   for (const std::size_t own : {is_exact ? 1U : 0U, 4U, 5U, 6U, 7U, 8U}) all[own].is_own = true;

@@ -18,7 +18,7 @@ struct Figure {
 };
 
 struct Statement {
-  std::string topic;  ///< "rotation", "translation", "IMU", "mount", "bumps", "drift"
+  std::string topic;  ///< "rotation", "translation", "IMU", "mount", "bumps", "drift", "camera"
   std::string text;   ///< describes how the figures were measured
   std::vector<Figure> figures;
   /// Whether the error is within `StudyConfig::tolerance_px`, and the error, as "yes: 0.021 px".

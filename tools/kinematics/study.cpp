@@ -54,6 +54,7 @@ Study carry_out(const StudyConfig& config, const Tick& tick) {
   study.bumps = bump_rows(config, tick);
   study.imu = imu_rows(config, tick);
   study.drift = drift_rows(config, tick);
+  study.left_out = left_out(config);
   return study;
 }
 

@@ -9,6 +9,7 @@
 #include "tools/kinematics/drift.h"
 #include "tools/kinematics/imu_study.h"
 #include "tools/kinematics/sweeps.h"
+#include "tools/kinematics/timing.h"
 
 namespace lcs::kinematics {
 
@@ -23,6 +24,7 @@ struct Study {
   std::vector<ImuRow> imu;
   std::vector<BumpRow> bumps;
   std::vector<DriftRow> drift;
+  LeftOut left_out;
 };
 
 /// Depths of the sweeps' geometric points, which cover the whole image.

@@ -415,6 +415,9 @@ std::vector<Metric> warning_metrics() {
        "geoms with an alpha between 0 and 1. They are drawn opaque (scenes/README.md)"},
       {"undrawn_parts", "skins, tendons and flexes, which are not drawn (scenes/README.md)"},
       {"joints_frozen", "actors that keep a pose, and whose joints do not move"},
+      {"coarse_shutter",
+       "frames that shift by more than 0.5 px between two of their 64 drawings "
+       "(sim/camera/shutter.h)"},
       {"few_corners", "frames with fewer than 10 corners; 0 if not more than half"},
       {"runaway_speed", "frames with a told speed above 70 m/s. Of recordings alone"},
       {"turn_not_told",
