@@ -122,11 +122,7 @@ class PointGrid {
   /// within `radius_px` of x, px, and few others.
   template <typename Visit>
   void visit_runs(const Vec2& x, double radius_px, Visit&& visit) const {
-    const int bottom = row(x.y() + radius_px);
-    for (int r = row(x.y() - radius_px); r <= bottom; ++r) {
-      const auto [first, last] = run(x, radius_px, r);
-      if (first < last) visit(first, last);
-    }
+    visit_rows(row(x.y() - radius_px), x, radius_px, visit);
   }
 
   /// Calls `visit(index, squared distance)` for each point within `radius_px` of x, px.
@@ -142,13 +138,10 @@ class PointGrid {
   template <typename Visit>
   void visit_runs_after(std::size_t place, double radius_px, Visit&& visit) const {
     const Vec2& x = placed_[place].location;
-    const int here = row(x.y()), bottom = row(x.y() + radius_px);
-    const std::size_t end = run(x, radius_px, here).second;
+    const int here = row(x.y());
+    const std::size_t end = first_[cell(column(x.x() + radius_px), here) + 1];
     if (place + 1 < end) visit(place + 1, end);
-    for (int r = here + 1; r <= bottom; ++r) {
-      const auto [first, last] = run(x, radius_px, r);
-      if (first < last) visit(first, last);
-    }
+    visit_rows(here + 1, x, radius_px, visit);
   }
 
   /// px: radius that holds `count` points at the mean density of the cells round x. A search within
@@ -243,19 +236,15 @@ class PointGrid {
     }
   }
 
-  /// The places in a row of cells that hold its points within `radius_px` of x, and few others.
-  std::pair<std::size_t, std::size_t> run(const Vec2& x, double radius_px, int row) const {
-    const double y = x.y(), top = low_.y() + row * cell_px_;
-    // The first and last rows hold all that lies beyond. Reduced slightly for rounding of cells.
-    const double off = row > 0 && y < top                      ? top - y
-                       : row < rows_ - 1 && y > top + cell_px_ ? y - top - cell_px_
-                                                               : 0;
-    const double inside_px = off * (1 - 1e-9) - 1e-9 * cell_px_;
-    const double half_px =  // of the chord where the circle reaches farthest into the row
-        inside_px > 0 ? std::sqrt(std::max(0.0, radius_px * radius_px - inside_px * inside_px))
-                      : radius_px;
-    return {first_[cell(column(x.x() - half_px), row)],
-            first_[cell(column(x.x() + half_px), row) + 1]};
+  /// Visits the square about x, from a row of cells on. To cut its corners off would take longer.
+  template <typename Visit>
+  void visit_rows(int first_row, const Vec2& x, double radius_px, Visit&& visit) const {
+    const int left = column(x.x() - radius_px), right = column(x.x() + radius_px);
+    const int bottom = row(x.y() + radius_px);
+    for (int r = first_row; r <= bottom; ++r) {
+      const std::size_t first = first_[cell(left, r)], last = first_[cell(right, r) + 1];
+      if (first < last) visit(first, last);
+    }
   }
 
   std::size_t cell(int c, int r) const {
