@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
@@ -13,6 +14,17 @@ namespace {
 
 /// ln of the least ratio that counts; anything less is lost in rounding.
 const double kNone = std::log(std::numeric_limits<float>::epsilon());
+
+/// A normal density times a probability.
+ExpectedTrack::Share share_of(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
+  const Eigen::Matrix2f precision = covariance.inverse().cast<float>();
+  return {static_cast<float>(at_px.x()),
+          static_cast<float>(at_px.y()),
+          precision(0, 0),
+          precision(0, 1),
+          precision(1, 1),
+          static_cast<float>(std::log(share / (2 * kPi * std::sqrt(covariance.determinant()))))};
+}
 
 }  // namespace
 
@@ -38,12 +50,6 @@ double Association::clutter_ppx2(std::size_t corner) const {
   return crowd_[corner] / (kPi * near * near);
 }
 
-void Association::Share::set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
-  place_px = at_px;
-  precision = covariance.inverse();
-  ln_most = std::log(share / (2 * kPi * std::sqrt(covariance.determinant())));
-}
-
 /// Density of each track in this frame: a static or a moving point, weighted by its belief, or
 /// anywhere within reach.
 void Association::expect(std::span<const Track> predicted, double noise2_px2, double dt_s) {
@@ -51,19 +57,22 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   expected_.clear();
   for (const Track& track : predicted) {
     const double moves = chance(track.belief);
-    Expected& next = expected_.emplace_back();
-    next.track_px = track.place_px;
-    next.anywhere_ppx2 = wrong * anywhere;
-    next.still.set(track.as_static.place_px, track.as_static.spread(noise2_px2),
-                   (1 - wrong) * (1 - moves));
+    double anywhere_ppx2 = wrong * anywhere;
+    const ExpectedTrack::Share still = share_of(
+        track.as_static.place_px, track.as_static.spread(noise2_px2), (1 - wrong) * (1 - moves));
+    ExpectedTrack::Share moving = still;
     if (track.has_motion()) {
-      next.moving.set(track.as_moving.place_px,
-                      (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
-                      (1 - wrong) * moves);
+      moving =
+          share_of(track.as_moving.place_px,
+                   (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
+                   (1 - wrong) * moves);
     } else {
-      next.anywhere_ppx2 += (1 - wrong) * moves * anywhere;
+      moving.ln_most = -std::numeric_limits<float>::infinity();
+      anywhere_ppx2 += (1 - wrong) * moves * anywhere;
     }
-    next.ln_anywhere = std::log(next.anywhere_ppx2);
+    const Eigen::Vector2f place_px = track.place_px.cast<float>();
+    expected_.push_back(
+        {place_px.x(), place_px.y(), still, moving, static_cast<float>(anywhere_ppx2)});
   }
 }
 
@@ -127,22 +136,21 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
   }
   for (std::size_t i = 0; i < count; ++i) {
     const int place = signature != nullptr ? alike_[i].place : near_.places[i];
-    const int t = sought.tracks[sought.grid.index_at(static_cast<std::size_t>(place))];
-    const Expected& track = expected_[t];
+    which_[i] = sought.tracks[sought.grid.index_at(static_cast<std::size_t>(place))];
+  }
+  const Eigen::Vector2f x = x_px.cast<float>();
+  loops().densities(expected_.data(), which_.data(), count, x.x(), x.y(), ln_density_.data(),
+                    ln_off_.data());
+  const double reach2_px2 = all_.reach_px * all_.reach_px;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ExpectedTrack& track = expected_[which_[i]];
     // Static points are not followed at steps that are too large for movers, either.
-    if ((track.track_px - x_px).squaredNorm() > all_.reach_px * all_.reach_px) continue;
+    if ((Eigen::Vector2f(track.x_px, track.y_px) - x).squaredNorm() > reach2_px2) continue;
     const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
-    const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
-    // Far from both predictions only the uniform density is left.
-    const double ln_density =
-        std::max(still, moving) < kNone + track.ln_anywhere
-            ? track.ln_anywhere
-            : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
     // Half as far as a pair may be, in deviations and in bits.
-    const double ln_off = std::max(still - track.still.ln_most, moving - track.moving.ln_most);
     is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
-                          ln_off > -0.5 * (0.5 * kFar) * (0.5 * kFar));
-    offer({ln_density + likeness, t, static_cast<float>(likeness)});
+                          ln_off_[i] > -0.5 * (0.5 * kFar) * (0.5 * kFar));
+    offer({ln_density_[i] + likeness, which_[i], static_cast<float>(likeness)});
   }
   return is_sure;
 }
@@ -150,6 +158,9 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
 /// Finds the pairs of all corners.
 void Association::find_pairs(const Chi& chi) {
   refill(alike_, expected_.size());
+  refill_column(which_, expected_.size());
+  refill_column(ln_density_, expected_.size());
+  refill_column(ln_off_, expected_.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
@@ -176,9 +187,8 @@ void Association::find_pairs(const Chi& chi) {
     for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
-      const Vec2 step = x - expected_[pair.track].track_px;
-      step_x_[p] = static_cast<float>(step.x());
-      step_y_[p] = static_cast<float>(step.y());
+      step_x_[p] = static_cast<float>(x.x()) - expected_[pair.track].x_px;
+      step_y_[p] = static_cast<float>(x.y()) - expected_[pair.track].y_px;
       likeness_of_[p] = pair.likeness;
       ln_likest_.back() = std::max(ln_likest_.back(), pair.likeness - ln_clutter);
     }

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -65,26 +64,6 @@ class Association {
     double signature;
   };
 
-  /// A normal density times a probability; 0 if not set.
-  struct Share {
-    Vec2 place_px = Vec2::Zero();
-    Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
-    double ln_most = -std::numeric_limits<double>::infinity();
-
-    void set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share);
-    double ln(const Vec2& x_px) const {
-      const Vec2 off = x_px - place_px;
-      return ln_most - 0.5 * off.dot(precision * off);
-    }
-  };
-
-  /// Density of a track's place in this frame.
-  struct Expected {
-    Vec2 track_px;
-    Share still, moving;
-    double anywhere_ppx2, ln_anywhere;
-  };
-
   /// Tracks that are looked for within the same distance.
   struct Sought {
     PointGrid grid;
@@ -112,13 +91,15 @@ class Association {
   int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  Sought followed_;                   // tracks with three sightings, near their predictions
-  Sought all_;                        // all tracks, about their rotated places
-  PointGrid::Found near_;             // to a corner
-  std::vector<Alike> alike_;          // of these, to its signature
-  std::vector<Expected> expected_;    // of each track
-  std::vector<Pair> pairs_;           // by corner
-  std::vector<std::uint32_t> first_;  // index of each corner's first pair
+  Sought followed_;                         // tracks with three sightings, near their predictions
+  Sought all_;                              // all tracks, about their rotated places
+  PointGrid::Found near_;                   // to a corner
+  std::vector<Alike> alike_;                // of these, to its signature
+  std::vector<int> which_;                  // the tracks of these
+  std::vector<float> ln_density_, ln_off_;  // `Loops::densities` of these
+  std::vector<ExpectedTrack> expected_;     // of each track
+  std::vector<Pair> pairs_;                 // by corner
+  std::vector<std::uint32_t> first_;        // index of each corner's first pair
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<int> crowd_;                            // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner

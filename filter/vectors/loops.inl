@@ -392,7 +392,44 @@ std::size_t alike(const Signature& one, const Signature* many, const int* places
   return kept;
 }
 
-constexpr Loops kLoops = {within,       count_within, ties,  tied_sums,   links,
-                          exponentials, half_tanh,    votes, normal_sums, alike};
+/// The numbers of a column with a stride that lie at some indices.
+inline __attribute__((always_inline)) Floats gather(const float* from, const Ints& indices) {
+#ifdef __AVX2__
+  return (Floats)_mm256_i32gather_ps(from, (__m256i)indices, 4);
+#else
+  Floats values;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) values[lane] = from[indices[lane]];
+  return values;
+#endif
+}
+
+/// ln of the density of a share over its largest one.
+inline __attribute__((always_inline)) Floats ln_off_of(const ExpectedTrack::Share& first,
+                                                       const Ints& indices, float x_px,
+                                                       float y_px) {
+  const Floats x = x_px - gather(&first.x_px, indices), y = y_px - gather(&first.y_px, indices);
+  return -0.5F * (x * x * gather(&first.P_xx, indices) + y * y * gather(&first.P_yy, indices)) -
+         x * y * gather(&first.P_xy, indices);
+}
+
+void densities(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
+               float y_px, float* ln_density, float* ln_off) {
+  constexpr int kStride = sizeof(ExpectedTrack) / sizeof(float);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    Ints indices;
+    __builtin_memcpy(&indices, which + i, sizeof indices);
+    indices = before(i, count) ? indices * kStride : Ints{};
+    const Floats still = ln_off_of(tracks->still, indices, x_px, y_px);
+    const Floats moving = ln_off_of(tracks->moving, indices, x_px, y_px);
+    store(larger(still, moving), ln_off + i);
+    store(log_of(exp_of(still + gather(&tracks->still.ln_most, indices)) +
+                 exp_of(moving + gather(&tracks->moving.ln_most, indices)) +
+                 gather(&tracks->anywhere_ppx2, indices)),
+          ln_density + i);
+  }
+}
+
+constexpr Loops kLoops = {within,    count_within, ties,        tied_sums, links, exponentials,
+                          half_tanh, votes,        normal_sums, densities, alike};
 
 }  // namespace

@@ -47,6 +47,19 @@ struct LinkColumns {
   float far2;  ///< bound of squared distances, in units and in deviations of the values
 };
 
+/// Where a track is expected in this frame (MODEL.md (6)): normal densities, each times its
+/// probability, and a uniform one.
+struct ExpectedTrack {
+  struct Share {
+    float x_px, y_px;
+    float P_xx, P_xy, P_yy;  ///< precision, 1/px^2
+    float ln_most;           ///< ln of the largest density; -infinity for none
+  };
+  float x_px, y_px;  ///< its rotated place
+  Share still, moving;
+  float anywhere_ppx2;
+};
+
 /// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
@@ -107,6 +120,11 @@ struct Loops {
   /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
   void (*normal_sums)(const ResidualColumns& residuals, std::size_t count, const double* fix,
                       const double* root, NormalSums& sums);
+  /// The densities (6) of a corner for some tracks.
+  /// \param which indices of tracks; padded.
+  /// \param ln_density, ln_off padded: of the density; of the larger share of its largest value.
+  void (*densities)(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
+                    float y_px, float* ln_density, float* ln_off);
   /// Finds the signatures at some places of a list that are at most `most_bits` from one.
   /// \param found room for all.
   std::size_t (*alike)(const Signature& one, const Signature* many, const int* places,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -157,6 +158,41 @@ TEST(Loops, SumOverTheTiesOfEachNode) {
     // Single precision, of sums of up to 20.
     for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(sums[i], expected[i], 1e-5) << i;
   }
+}
+
+TEST(Loops, DensitiesAreThoseOfTheFormula) {
+  constexpr float kNever = -std::numeric_limits<float>::infinity();
+  const ExpectedTrack::Share near = {100, 50, 2, 0.5F, 1, -1}, far = {160, 40, 0.1F, 0, 0.2F, -3};
+  ExpectedTrack::Share none = near;
+  none.ln_most = kNever;
+  const std::vector<ExpectedTrack> tracks = {
+      {100, 50, near, far, 1e-4F}, {100, 50, far, near, 1e-5F}, {100, 50, near, none, 1e-3F}};
+  const auto ln_off = [](const ExpectedTrack::Share& share, double x, double y) {
+    x -= share.x_px;
+    y -= share.y_px;
+    return -0.5 * (share.P_xx * x * x + 2 * share.P_xy * x * y + share.P_yy * y * y);
+  };
+  std::vector<int> which = {2, 0, 1, 1, 2, 0, 0, 1, 2, 1};
+  const std::size_t count = which.size();
+  which.resize(count + kLanes, -1);  // behind the tracks, which no loop reads
+  std::vector<std::vector<float>> bits;
+  for (const Loops* way : kWays) {
+    for (const float x : {100.0F, 101.5F, 130.0F, 400.0F}) {
+      std::vector<float> density(count + kLanes), off(count + kLanes);
+      way->densities(tracks.data(), which.data(), count, x, 51, density.data(), off.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [x_px, y_px, still, moving, anywhere] = tracks[which[i]];
+        const double ln_still = ln_off(still, x, 51), ln_moving = ln_off(moving, x, 51);
+        const double all =
+            std::exp(ln_still + still.ln_most) + std::exp(ln_moving + moving.ln_most) + anywhere;
+        EXPECT_NEAR(density[i], std::log(all), 2e-6) << x << " " << i;
+        EXPECT_NEAR(off[i] / std::max(ln_still, ln_moving), 1, 1e-6) << x << " " << i;
+      }
+      density.resize(count);
+      bits.push_back(density);
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bits[i], bits[i + 4]);
 }
 
 TEST(Loops, HaveTheSameBitsOnAnyMachine) {
