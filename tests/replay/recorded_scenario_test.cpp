@@ -533,6 +533,34 @@ TEST_F(RecordedScenario, AUnitOfTimeIsThatOfTheImuWherePicturesHaveARate) {
   EXPECT_EQ(all_of(timed).frames.size(), static_cast<std::size_t>(kFrames));
 }
 
+TEST_F(RecordedScenario, ATimeOffsetMovesPicturesToTheClockOfTheImu) {
+  draw(home() / "pictures", "{}.png");
+  std::string imu = "time_ms,w_x,w_y,w_z,a_x,a_y,a_z\n";
+  for (int t_ms = 0; t_ms <= 600; t_ms += 5) {
+    imu += fmt::format("{0},0,0,{1},0,0,9.81\n", t_ms, 1e-3 * t_ms);  // turns faster and faster
+  }
+  write(home() / "imu.csv", imu);
+  const auto turns = [&](int late_ms, const std::string& more) {
+    std::string times = "frame,time_ms\n";
+    for (int k = 0; k < kFrames; ++k) times += fmt::format("{},{}\n", k, 100 * (k + 1) - late_ms);
+    write(home() / "times.csv", times);
+    Playback read =
+        playback("path: pictures, times: times.csv, focal: 300, imu: imu.csv, speed: 0" + more);
+    std::vector<double> turns_rad;
+    for (const bench::FrameRecord& frame : all_of(read).frames) {
+      turns_rad.push_back(Eigen::AngleAxisd(frame.motion.R_cur_prev).angle());
+    }
+    return turns_rad;
+  };
+  const std::vector<double> exact = turns(0, "");
+  EXPECT_NEAR(exact.back(), 0.5 * (0.4 * 0.4 - 0.3 * 0.3), 1e-3) << "the integral of t from 0.3 s";
+  EXPECT_EQ(turns(40, ", time_offset: 40 ms"), exact);
+  EXPECT_LT(turns(40, "").back(), 0.9 * exact.back());
+  EXPECT_NE(refusal("path: pictures, fps: 10, focal: 300, speed: 0, time_offset: 40 ms")
+                .find("time_offset has no effect"),
+            std::string::npos);
+}
+
 TEST_F(RecordedScenario, OfPicturesOfTwoSizesTakesThatOfMost) {
   draw(home() / "pictures", "{}.png");
   bench::write_picture(home() / "pictures" / "0.png", cv::Mat1b(20, 20, uchar{255}));

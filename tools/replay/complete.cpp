@@ -302,6 +302,7 @@ void take_time_offset(const scenario::Recorded& asked, Recorded& recorded) {
   if (!offset_s && asked.calibration) {
     offset_s = read_calibration(*asked.calibration, asked.camera).time_offset_s;
   }
+  recorded.took_time_offset = true;
   const std::int64_t offset_ns = std::llround(1e9 * offset_s.value_or(0));
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += offset_ns;
 }
@@ -393,6 +394,11 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   const bool times_known = set_times(asked, recorded);
   if (!times_known && !asked.poses) recorded.lacks.emplace_back(kNoTimes);
   set_motion(asked, times_known, is_told, recorded);
+  if (asked.time_offset_s && !recorded.took_time_offset) {
+    throw input::Error(asked.source,
+                       "time_offset has no effect: the motion of this recording has the clock of "
+                       "its pictures; remove it");
+  }
   if (!times_known && asked.poses && !recorded.motion && recorded.lacks.empty()) {
     recorded.lacks.emplace_back(kNoTimes);
   }

@@ -53,6 +53,7 @@ struct Recorded {
   std::vector<RecordedFrame> frames;
   bool timed = true;              ///< sorted by time, without duplicate times
   bool has_own_clock = false;     ///< times count from the first picture: sensors begin with it
+  bool took_time_offset = false;  ///< `take_time_offset` was called
   std::optional<double> fps;      ///< of an untimed recording, if the layout has it
   std::filesystem::path video;    ///< contains the pictures; empty: they are files
   std::optional<Lens> lens;       ///< absent: the layout has no calibration
