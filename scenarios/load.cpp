@@ -682,7 +682,8 @@ void read_value(const Item& item, Plain, std::vector<RigCamera>& cameras) {
     const auto require_same = [&](double Camera::*member, const char* quantity) {
       if (one.camera.*member == cameras.front().camera.*member) return;
       throw input::Error(one.source, names.path_of(entry.key) + " has another " + quantity +
-                                         " than the camera before it; give all of a rig one");
+                                         " than the camera before it; give all of a rig one " +
+                                         quantity);
     };
     require_same(&Camera::rate_hz, "rate");
     require_same(&Camera::time_offset_s, "time_offset");

@@ -16,6 +16,7 @@
 #include "tools/kinematics/imu_study.h"
 #include "tools/kinematics/sweeps.h"
 #include "tools/kinematics/theory.h"
+#include "tools/kinematics/timing.h"
 #include "tools/process/parallel.h"
 
 namespace lcs::kinematics {
@@ -332,6 +333,42 @@ TEST(KinematicsConfig, TheStepIsInTheAxesOfTheMountedCamera) {
   const StudyConfig left = config_with({"camera.rotation=[0 deg, 0 deg, 90 deg]"});
   EXPECT_TRUE(left.forward_C.isApprox(Vector3d(1, 0, 0), 1e-9));
   EXPECT_TRUE(config_with().forward_C.isApprox(Vector3d(0, 0, 1), 1e-9));
+}
+
+// ---- Distortion, shutter and clock that are left out
+
+/// A drive that speeds up in a curve.
+const std::vector<std::string> kHurried{"frames=20", "ego.speed=0.2 m/s",
+                                        "ego.acceleration=0.5 m/s^2", "ego.yaw_rate=20 deg/s"};
+
+/// The ways are so short (20 ms and 5 ms) that their second order is a few percent.
+TEST(KinematicsLeftOut, ShutterAndClockErrAsTheMotionFieldSays) {
+  const LeftOut left = left_out(config_with(kHurried));
+  EXPECT_EQ(left.readout_s, kReadout_s);
+  EXPECT_EQ(left.offset_s, kOffset_s);
+  EXPECT_GT(left.readout_px, 1);
+  EXPECT_GT(left.offset_px, 0.01);
+  EXPECT_NEAR(left.readout_px, left.expected_readout_px, 0.05 * left.expected_readout_px);
+  EXPECT_NEAR(left.offset_px, left.expected_offset_px, 0.05 * left.expected_offset_px);
+
+  std::vector<std::string> sets = kHurried;
+  sets.insert(sets.end(), {"camera.rolling_shutter=10 ms", "camera.told.time_offset_error=-5 ms"});
+  const LeftOut other = left_out(config_with(sets));
+  EXPECT_NEAR(other.readout_px, left.readout_px / 2, 0.05 * left.readout_px) << "half the readout";
+  EXPECT_NEAR(other.offset_px, left.offset_px, 0.02 * left.offset_px) << "an earlier clock";
+}
+
+/// The error is linear in small coefficients.
+TEST(KinematicsLeftOut, DistortionErrsInProportionToItself) {
+  const auto error_px = [](const char* coefficients) {
+    std::vector<std::string> sets = kHurried;
+    sets.push_back(std::string("camera.distortion=") + coefficients);
+    return left_out(config_with(sets)).distortion_px;
+  };
+  EXPECT_EQ(left_out(config_with(kHurried)).distortion_px, 0);
+  const double whole_px = error_px("[-0.02, 0.002, 0, 0, 0]");
+  EXPECT_GT(whole_px, 0.1);
+  EXPECT_NEAR(error_px("[-0.01, 0.001, 0, 0, 0]"), whole_px / 2, 0.05 * whole_px);
 }
 
 }  // namespace

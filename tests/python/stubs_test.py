@@ -41,7 +41,7 @@ def generated():
         text,
         flags=re.DOTALL | re.MULTILINE,
     )
-    text = re.sub(r"^ *_(?!_)\w+: .*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^ *_(?!_)\w+(?::| =) .*\n", "", text, flags=re.MULTILINE)
     text = re.sub(r"^from \. import _core\n", "", text, flags=re.MULTILINE)
     text = re.sub(r"^    ([A-Z_0-9]+): typing\.ClassVar\[\w+\]$", r"    \1 = ...", text, flags=re.MULTILINE)
     text = text.replace("-> dict:", "-> dict[str, typing.Any]:").replace("__all__: list ", "__all__: list[str] ")

@@ -157,8 +157,8 @@ INSTANTIATE_TEST_SUITE_P(
               "4: odometry.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("KeyOfACalibration", "camera: {fx: 458}\n",
               "4: unknown key 'fx'; give camera.focal: [fx, fy]"),
-        added("SensorThatIsNot", "camera: {stereo: true}\n",
-              "4: unknown key 'stereo'; the simulator has none of it "
+        added("SensorThatIsNot", "camera: {auto_exposure: true}\n",
+              "4: unknown key 'auto_exposure'; the simulator has none of it "
               "(scenarios/README.md, 'What the simulator has, and has not'); remove it"),
         added("KeyOfAnotherSimulator", "camera: {readout_time: 20 ms}\n",
               "4: unknown key 'readout_time'; give camera.rolling_shutter"),

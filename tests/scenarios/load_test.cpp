@@ -664,6 +664,9 @@ TEST(Load, AWrongRigIsRefusedAtItsLine) {
   EXPECT_EQ(refusal(rig_of_two + "  slow: {rate: 5}\n"),
             "test.yaml:7: cameras.slow has another rate than the camera before it; give all of a "
             "rig one rate");
+  EXPECT_EQ(refusal(rig_of_two + "  late: {rate: 20, time_offset: 5 ms}\n"),
+            "test.yaml:7: cameras.late has another time_offset than the camera before it; give all "
+            "of a rig one time_offset");
   EXPECT_EQ(refusal(smallest + "cameras: {}\n").find("test.yaml:4: cameras has 0 cameras; give"),
             0u);
   EXPECT_EQ(refusal(rig_of_two + "image: {rain: {rate: 5}}\n").find("test.yaml:7: image.rain"), 0u);

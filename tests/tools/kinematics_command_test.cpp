@@ -168,6 +168,10 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   for (const char* what : {"tilt", "heading"}) {
     EXPECT_LT(answer.take(std::string("drift.ideal.odometry.") + what).value, 1e-4) << what;
   }
+  // A drive straight on: the exact way differs from the field's by a share of the way over depth.
+  answer.expect("camera.rolling_shutter.p95", 0.03);
+  EXPECT_LT(answer.take("camera.time_offset.p95").value, 1e-2) << "its velocity hardly changes";
+  EXPECT_EQ(answer.take("camera.distortion.p95").value, 0) << "a pinhole";
   EXPECT_EQ(answer.left(), std::set<std::string>{});
 }
 

@@ -16,11 +16,11 @@ constexpr double kStandInSpeed_mps = 0.5;  // if the scenario's rover is static
 StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) {
   StudyConfig config;
   config.scenario = scenario;
+  config.lens = sim::lens_of(scenario.camera);
   // the filter gets corners without distortion
   scenario::Camera& camera = config.scenario.camera;
   if (camera.focal_px || camera.distortion) {
-    camera.fovy_rad =
-        2 * std::atan(camera.height_px / 2.0 / sim::lens_of(camera).pinhole().focal_px);
+    camera.fovy_rad = 2 * std::atan(camera.height_px / 2.0 / config.lens.pinhole().focal_px);
     camera.focal_px.reset();
     camera.distortion.reset();
   }

@@ -23,7 +23,9 @@ struct Effort {
 };
 
 struct StudyConfig {
-  scenario::Scenario scenario;
+  scenario::Scenario
+      scenario;  ///< without the lens: its camera is the pinhole that the filter gets
+  sim::Lens lens;
   AnyParameters filter;
   Effort effort;
   /// Nominal speed: the fastest commanded at the start of a phase of the scenario.

@@ -72,7 +72,7 @@ LeftOut left_out(const StudyConfig& config) {
       camera.told.time_offset_error_s != 0 ? camera.told.time_offset_error_s : kOffset_s;
   camera.rolling_shutter_s = camera.exposure_s = camera.told.time_offset_error_s = 0;
   scenario.frames = std::min(scenario.frames, config.effort.drive_frames);
-  const sim::Optics optics(sim::lens_of(camera));
+  const sim::Optics optics(config.lens);
   const PointSet points = study_points(config.camera);
   std::vector<double> distortion, readout, readout_field, offset, offset_field;
   const std::vector<sim::Observation> frames = sim::drive(scenario).frames;

@@ -466,10 +466,11 @@ void bind_runs(py::module_& module) {
   module.def(
       "generate",
       [](const OptionalPaths& paths, const std::string& out, const std::string& worlds, int count,
-         const std::string& family, bool suite, const Texts& formats, int frames,
+         const std::string& family, bool suite, const Texts& formats, bool add, int frames,
          std::optional<std::uint64_t> seed, int seeds, const Settings& set, int jobs,
          const std::string& shard, const ProgressFunction& progress) {
         app::GenerateRequest request;
+        request.add = add;
         request.paths = paths_of(paths);
         request.worlds = {worlds, count, family};
         request.suite = suite;
@@ -494,13 +495,15 @@ void bind_runs(py::module_& module) {
                         "notes"_a = made.notes, "messages"_a = caller.messages());
       },
       "paths"_a = py::none(), py::kw_only(), "out"_a = "", "worlds"_a = "", "count"_a = 60,
-      "family"_a = "", "suite"_a = false, "formats"_a = Texts{}, "frames"_a = 0,
+      "family"_a = "", "suite"_a = false, "formats"_a = Texts{}, "add"_a = false, "frames"_a = 0,
       "seed"_a = py::none(), "seeds"_a = 1, "set"_a = py::none(), "jobs"_a = 1, "shard"_a = "",
       "progress"_a = py::none(),
       "Writes a scenario as a sequence that other tools read (tools/sequence/README.md).\n\n"
       "paths: the scenario's file; with suite=True files and folders. worlds: in its place a split "
       "of\n"
-      "worlds, as in suite. formats: names, all if not given. frames: only the first so many.\n"
+      "worlds, as in suite. formats: names; if not given, all but kitti and mcap. add: adds them "
+      "to\n"
+      "the finished sequence in out. frames: only the first so many.\n"
       "Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; "
       "messages. The\n"
       "same call goes on after it was interrupted.");

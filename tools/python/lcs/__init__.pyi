@@ -229,7 +229,6 @@ class Label(enum.IntEnum):
     INDISTINCT = ...
     NONE = ...
     REBEL = ...
-    _member_type_ = builtins.int
 class Motion:
     """
     How the camera moved from the last frame to this one. Camera frame: x right, y down, z
@@ -329,7 +328,6 @@ class Reason(enum.IntEnum):
     XI_3 = ...
     XI_4 = ...
     XI_5 = ...
-    _member_type_ = builtins.int
 class Result:
     """
     The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; places are in
@@ -554,7 +552,6 @@ class Verdict(enum.IntEnum):
     NORMAL = ...
     PENDING = ...
     REBEL = ...
-    _member_type_ = builtins.int
 def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '') -> dict[str, typing.Any]:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
@@ -570,12 +567,13 @@ def detectors() -> dict[str, typing.Any]:
     """
     The names of the bench's detectors, with a line about each.
     """
-def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], frames: int = 0, seed: int | None = None, seeds: int = 1, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], add: bool = False, frames: int = 0, seed: int | None = None, seeds: int = 1, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
 
     paths: the scenario's file; with suite=True files and folders. worlds: in its place a split of
-    worlds, as in suite. formats: names, all if not given. frames: only the first so many.
+    worlds, as in suite. formats: names; if not given, all but kitti and mcap. add: adds them to
+    the finished sequence in out. frames: only the first so many.
     Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
     same call goes on after it was interrupted.
     """
