@@ -375,6 +375,24 @@ TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
   }
 }
 
+TEST_F(Generate, TheScenarioInASequenceMakesTheSameSequence) {
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "euroc", "--quiet", "--seed", "7", "--set",
+                      "ego.speed=0.9 m/s", "--set", "image.noise={full_well: 9000, read: 5}"})
+                .exit_code,
+            0);
+  const fs::path again = home_.path() / "again";
+  ASSERT_EQ(run_lcs({"generate", folder() / "scenario.yaml", "--out", again, "--formats", "euroc",
+                     "--quiet"},
+                    {.folder = home_.path()})
+                .exit_code,
+            0);
+  for (const char* file : {"mav0/imu0/data.csv", "mav0/cam0/pose.csv", "mav0/cam0/data.csv"}) {
+    EXPECT_EQ(read_file(folder() / file), read_file(again / file)) << file;
+  }
+  EXPECT_EQ(read_file(folder() / picture_path(kEpoch_ns)),
+            read_file(again / picture_path(kEpoch_ns)));
+}
+
 TEST_F(Generate, EglGivesTheSameBytesAsOsmesa) {
   const auto pictures_by = [&](const char* library) {
     ::setenv("LCS_GL", library, 1);

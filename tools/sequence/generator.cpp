@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "sim/simulation.h"
 #include "tools/files/output_file.h"
 #include "tools/files/sha256.h"
+#include "tools/input/document.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"
@@ -159,6 +161,27 @@ class GrowingDocument {
   std::vector<std::string> rows_;
 };
 
+/// The scenario's file, with the values that replaced its own.
+std::string scenario_text(const scenario::Scenario& scenario, const GenerateOptions& options) {
+  const std::string text = read_file(scenario.file);
+  input::Value root = input::parse_document(text, scenario.file);
+  const std::string as_read = input::yaml_text(root);
+  for (const std::string& assignment : options.sets) input::apply_set(root, assignment);
+  const std::map<std::string, std::string> values = input::flattened(root);
+  const scenario::Scenario defaults;
+  const auto replace = [&](const char* key, auto value, auto if_absent) {
+    const auto found = values.find(key);
+    const bool is_same =
+        found == values.end() ? value == if_absent : found->second == std::to_string(value);
+    if (!is_same) input::apply_set(root, fmt::format("{}={}", key, value));
+  };
+  replace("seed", scenario.seed, defaults.seed);
+  if (values.contains("duration")) input::apply_set(root, "duration=");
+  replace("frames", scenario.frames, 0);
+  const std::string whole = input::yaml_text(root);
+  return whole == as_read ? text : whole;
+}
+
 std::vector<GrowingDocument> documents_of(const Rig& rig, const GenerateOptions& options) {
   std::vector<GrowingDocument> all;
   const auto add_text = [&](const char* path, std::string text) {
@@ -166,7 +189,7 @@ std::vector<GrowingDocument> documents_of(const Rig& rig, const GenerateOptions&
   };
   const std::vector<SequenceInfo> infos = rig.infos();
   add_text(kSettingsFile, settings_text(infos[rig.filter_place()]));
-  add_text(kScenarioFile, read_file(infos.front().scenario.file));
+  add_text(kScenarioFile, scenario_text(infos.front().scenario, options));
   add_text(kReadmeFile, readme_text(infos.front(), options.formats));
   for (const SequenceInfo& info : infos) {
     for (const auto& writer : writers_of(info, options)) {

@@ -124,7 +124,7 @@ std::string rig_text(const SequenceInfo& info) {
 constexpr const char* kPictures = R"(
 * `mav0/cam0/data/<ns>.png`, `mav0/cam0/data.csv`: the pictures, 8-bit colour, and their list.
 * `lcs.json`: how `lcs replay` sets up the detectors for the same bits as `lcs run` gives; `origin` is the world of `lcs world` that the pictures are of, if they are of one.
-* `scenario.yaml`: the scenario as it was read, without what was set on the command line.
+* `scenario.yaml`: the scenario, with the values of the command line. Its relative paths begin at the folder of the file that was given.
 )";
 
 constexpr const char* kObjects = R"(
