@@ -14,7 +14,6 @@ import argparse
 import datetime
 import os
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -29,27 +28,22 @@ BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 TIMES = re.compile(r"(<!-- times -->\n).*?(<!-- end of times -->)", re.S)
 
 
-def children_cpu_s():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
 def as_text(seconds):
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.1f} min"
 
 
 def run_all(clone):
-    """(title, wall seconds, CPU seconds) of each section."""
+    """(title, seconds) of each section."""
     environment = {**os.environ, "MPLBACKEND": "Agg"}  # evo draws without a display
     rows = []
     for title, text in SECTION.findall(PAGE.read_text()):
         script = "\n".join(BLOCK.findall(text))
         print(f"## {title}", flush=True)
-        wall, cpu = time.monotonic(), children_cpu_s()
+        start_s = time.monotonic()
         code = subprocess.run(["bash", "-eux", "-c", script], cwd=clone, env=environment, check=False).returncode
         if code:
             sys.exit(f"walkthroughs.py: '{title}' ended with exit code {code}")
-        rows.append((title, time.monotonic() - wall, children_cpu_s() - cpu))
+        rows.append((title, time.monotonic() - start_s))
     return rows
 
 
@@ -66,8 +60,8 @@ def main():
             shutil.copytree(ROOT / ".mujoco", clone / ".mujoco", symlinks=True)
         rows = run_all(clone)
 
-    table = [f"| walk-through | time on {os.cpu_count()} cores | CPU time |", "|---|---|---|"]
-    table += [f"| {title} | {as_text(wall)} | {as_text(cpu)} |" for title, wall, cpu in rows]
+    table = [f"| walk-through | time on {os.cpu_count()} cores |", "|---|---|"]
+    table += [f"| {title} | {as_text(seconds)} |" for title, seconds in rows]
     print("\n".join(table))
     if not arguments.check:
         note = f"\n(Measured on {datetime.date.today()}.)\n\n"
