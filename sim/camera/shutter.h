@@ -20,7 +20,7 @@ namespace lcs::sim {
 
 class Shutter {
  public:
-  static constexpr double kMostShift_px = 0.5;
+  static constexpr double kMostShift_px = 0.25;
   static constexpr int kMostDrawings = 64;
 
   Shutter() = default;
