@@ -90,8 +90,8 @@ TEST(Shutter, SharesOfARowAddUpToOneRoundItsTime) {
     }
   }
   EXPECT_EQ(Shutter::drawings_for(0), 1);
-  EXPECT_EQ(Shutter::drawings_for(0.51), 2);
-  EXPECT_EQ(Shutter::drawings_for(5), 16);
+  EXPECT_EQ(Shutter::drawings_for(1.01 * Shutter::kMostShift_px), 2);
+  EXPECT_EQ(Shutter::drawings_for(10 * Shutter::kMostShift_px), 16);
   EXPECT_EQ(Shutter::drawings_for(1000), Shutter::kMostDrawings);
 }
 
