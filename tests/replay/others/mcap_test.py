@@ -16,6 +16,8 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
+from replays import replay
+
 LCS, WORK = sys.argv[1], Path(sys.argv[2])
 FRAMES = 35
 SCENARIO = f"""
@@ -148,13 +150,6 @@ def check_schemas(bag: Path) -> None:
             "vision_msgs/msg/Detection2DArray"} == schemas.keys()  # fmt: skip
 
 
-def replay(path: Path, out: Path, *options: str) -> list:
-    shutil.rmtree(out, ignore_errors=True)
-    subprocess.run([LCS, "replay", path, "--out", out, "--no-video", "--quiet", *options], check=True)
-    frames = [json.loads(line) for line in (out / "layers.jsonl").read_text().splitlines()]
-    return [(len(frame["corners"]["x"]), frame["corners"]["verdict"]) for frame in frames if "corners" in frame]
-
-
 def main() -> None:
     (WORK / "rig.yaml").write_text(SCENARIO)
     sequence, again = WORK / "rig", WORK / "again"
@@ -178,9 +173,9 @@ def main() -> None:
     shutil.rmtree(sequence / "mav0/state_groundtruth_estimate0")
     calibration = ("--imu-calibration", str(sequence / "mav0/imu0/sensor.yaml"))
     for i in (0, 1):
-        of_bag = replay(bag, WORK / "out-bag", "--image-topic", f"/cam{i}/image_raw/compressed",
+        of_bag = replay(LCS, bag, WORK / "out-bag", "--image-topic", f"/cam{i}/image_raw/compressed",
                         "--imu-topic", "/imu0", "--odometry-topic", "/odometry0", *calibration)  # fmt: skip
-        of_folder = replay(sequence, WORK / "out-folder", "--camera", f"cam{i}")
+        of_folder = replay(LCS, sequence, WORK / "out-folder", "--camera", f"cam{i}")
         assert len(of_bag) > 20 and of_bag == of_folder, i
     print("fine: the bag has the sequence, message by message")
 

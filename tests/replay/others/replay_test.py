@@ -12,6 +12,8 @@ import numpy as np
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
+from replays import replay
+
 LCS, WORK = sys.argv[1], Path(sys.argv[2])
 SCENARIO = """
 scene: lab
@@ -78,13 +80,6 @@ def write_bag(mav: Path, bag: Path) -> None:
                 at, 240, 320, "plumb_bob", np.zeros(5), K, np.eye(3).ravel(), P, 0, 0, region))
 
 
-def replay(path: Path, out: Path, *options: str) -> list:
-    shutil.rmtree(out, ignore_errors=True)
-    subprocess.run([LCS, "replay", path, "--out", out, "--no-video", "--quiet", *options], check=True)
-    frames = [json.loads(line) for line in (out / "layers.jsonl").read_text().splitlines()]
-    return [(len(frame["corners"]["x"]), frame["corners"]["verdict"]) for frame in frames if "corners" in frame]
-
-
 def main() -> None:
     (WORK / "drive.yaml").write_text(SCENARIO)
     sequence, bag = WORK / "drive", WORK / "bag"
@@ -97,8 +92,8 @@ def main() -> None:
     shutil.rmtree(sequence / "mav0/state_groundtruth_estimate0")
     shutil.rmtree(sequence / "mav0/odometry0", ignore_errors=True)
     write_bag(sequence / "mav0", bag)
-    folder = replay(sequence, WORK / "out-folder")
-    file = replay(bag, WORK / "out-bag", "--image-topic", "/camera/image_raw", "--imu-topic", "/imu",
+    folder = replay(LCS, sequence, WORK / "out-folder")
+    file = replay(LCS, bag, WORK / "out-bag", "--image-topic", "/camera/image_raw", "--imu-topic", "/imu",
                   "--imu-calibration", str(sequence / "mav0/imu0/sensor.yaml"))
     assert len(folder) > 20 and folder == file, [k for k, pair in enumerate(zip(folder, file)) if pair[0] != pair[1]]
     assert sum(corners for corners, _ in folder) > 1000, folder
