@@ -93,10 +93,12 @@ void MotionGroups::link() {
   }
   const LinkColumns nodes = {grid_.x_px(),  grid_.y_px(),     reach2_px2_.data(),
                              depth_.data(), variance_.data(), static_cast<float>(kFar * kFar)};
-  links_.clear();
   // Reserves the most links, so that no later frame allocates.
-  make_room(links_, kCrowd / 2 * count);
-  make_room(sorted_, kCrowd / 2 * count);
+  for (std::vector<Couple>* links : {&short_links_, &long_links_}) {
+    links->clear();
+    make_room(*links, kCrowd / 2 * count);
+  }
+  sorter_.make_room(kCrowd / 2 * count);
   for (std::size_t place = 0; place < count; ++place) {
     const int i = grid_.index_at(place);
     const double radius_px =
@@ -107,7 +109,9 @@ void MotionGroups::link() {
                         found_.data(), distance2_.data());
       for (std::size_t k = 0; k < found; ++k) {
         const int j = grid_.index_at(static_cast<std::size_t>(found_[k]));
-        links_.emplace_back(0.5F * distance2_[k], std::min(i, j), std::max(i, j));
+        const float cost = 0.5F * distance2_[k];
+        (cost < kShort ? short_links_ : long_links_)
+            .emplace_back(cost, std::min(i, j), std::max(i, j));
       }
     });
   }
@@ -137,9 +141,9 @@ bool MotionGroups::is_refused(int a, int b) const {
   return last.other == b && last.size == sizes_[a] && last.other_size == sizes_[b];
 }
 
-/// Merges groups along links, cheapest first.
-void MotionGroups::merge(std::vector<Couple>& links) {
-  sort_couples(links, sorted_);
+/// Merges groups along links, cheapest first. \param most the links cost less.
+void MotionGroups::merge(std::vector<Couple>& links, float most) {
+  sorter_.sort(links, most);
   for (const Couple& link : links) {
     const int a = sets_.root(link.a), b = sets_.root(link.b);
     if (a == b || is_refused(a, b) || is_refused(b, a)) continue;
@@ -170,21 +174,10 @@ void MotionGroups::merge() {
     for (std::size_t i = 0; i < sums_.size(); ++i) of_ground_[i] = ground_evidence(sums_[i]);
   }
   // Most links lie within a group that the short ones make, and need not be sorted.
-  make_room(short_links_, links_.size());
-  short_links_.clear();
-  std::size_t kept = 0;
-  for (const Couple& link : links_) {
-    if (link.cost < kShort) {
-      short_links_.push_back(link);
-    } else {
-      links_[kept++] = link;
-    }
-  }
-  links_.erase(links_.begin() + static_cast<std::ptrdiff_t>(kept), links_.end());
-  merge(short_links_);
-  std::erase_if(links_,
+  merge(short_links_, kShort);
+  std::erase_if(long_links_,
                 [&](const Couple& link) { return sets_.root(link.a) == sets_.root(link.b); });
-  merge(links_);
+  merge(long_links_, static_cast<float>(0.5 * kFar * kFar));
 }
 
 const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Edge>& edges,

@@ -49,7 +49,7 @@ class MotionGroups {
   void gather(const std::vector<Edge>& edges, const MotionField& field);
   void link();
   bool is_refused(int a, int b) const;
-  void merge(std::vector<Couple>& links);
+  void merge(std::vector<Couple>& links, float most);
   void merge();
   double body_evidence(const PlaneSums& sums, double scale) const;
   double ground_evidence(const PlaneSums& sums) const;
@@ -74,8 +74,8 @@ class MotionGroups {
   std::vector<float> reach2_px2_, depth_, variance_;
   std::vector<int> found_;
   std::vector<float> distance2_;
-  std::vector<Couple> links_, short_links_;
-  std::vector<Couple> sorted_;  // scratch storage
+  std::vector<Couple> short_links_, long_links_;
+  CoupleSorter sorter_;
   /// The group with which a group was not merged last, and the sizes of both then.
   struct Refusal {
     int other = -1, size = 0, other_size = 0;

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <vector>
+
+#include "filter/matching/refill.h"
 
 namespace lcs {
 
@@ -25,29 +25,40 @@ struct Couple {
   }
 };
 
-/// Sorts couples whose costs are not negative, as std::sort would. By counting two digits of the
-/// costs (their first 22 bits), because a comparison of costs at random is mispredicted half of the
-/// time. Couples that share these bits are few, and compared.
-/// \param room scratch storage.
-inline void sort_couples(std::vector<Couple>& couples, std::vector<Couple>& room) {
-  room.assign(couples.begin(), couples.end());
-  const auto bits = [](const Couple& couple) { return std::bit_cast<std::uint32_t>(couple.cost); };
-  for (int shift = 10; shift < 32; shift += 11) {
-    // The bits of floats that are not negative have the floats' order.
-    const auto digit = [&](const Couple& couple) { return (bits(couple) >> shift) % 2048; };
-    std::array<std::uint32_t, 2049> first{};  // start of each digit's couples
-    for (const Couple& couple : couples) ++first[digit(couple) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (const Couple& couple : couples) room[first[digit(couple)]++] = couple;
-    couples.swap(room);
+/// Sorts couples, as std::sort would.
+class CoupleSorter {
+ public:
+  void make_room(std::size_t couples) {
+    lcs::make_room(first_, couples + 3);
+    lcs::make_room(sorted_, couples);
   }
-  for (auto run = couples.begin(); run != couples.end();) {
-    const std::uint32_t first_bits = bits(*run) >> 10;
-    const auto end =
-        std::find_if(run, couples.end(), [&](auto& c) { return bits(c) >> 10 != first_bits; });
-    if (end - run > 1) std::sort(run, end);
-    run = end;
+
+  /// \param most the costs are from 0 to this one.
+  void sort(std::vector<Couple>& couples, float most) {
+    // By counting as many even bins of costs as there are couples, because a comparison of costs at
+    // random is mispredicted half of the time. The couples of a bin are few, and compared.
+    const std::size_t count = couples.size();
+    const float per_cost = static_cast<float>(count) / most;
+    const auto bin = [&](const Couple& couple) {
+      return std::min(static_cast<std::uint32_t>(couple.cost * per_cost),
+                      static_cast<std::uint32_t>(count));
+    };
+    refill(first_, count + 3);
+    for (const Couple& couple : couples) ++first_[bin(couple) + 2];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    copy_over(couples, sorted_);
+    for (const Couple& couple : couples) sorted_[first_[bin(couple) + 1]++] = couple;
+    couples.swap(sorted_);
+    for (std::size_t b = 0; b <= count; ++b) {
+      if (first_[b + 1] - first_[b] > 1) {
+        std::sort(couples.begin() + first_[b], couples.begin() + first_[b + 1]);
+      }
+    }
   }
-}
+
+ private:
+  std::vector<std::uint32_t> first_;  // couple of each bin, and the end
+  std::vector<Couple> sorted_;
+};
 
 }  // namespace lcs

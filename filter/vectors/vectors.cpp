@@ -11,10 +11,9 @@ const Loops& plain_loops() {
   return kLoops;
 }
 
-const Loops& loops() {
+const Loops& best_loops() {
 #if defined(LCS_AVX2)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
-  if (has_avx2) return avx2::loops();
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt")) return avx2::loops();
 #endif
   return kLoops;
 }

@@ -131,10 +131,14 @@ struct Loops {
                        std::size_t count, int most_bits, Alike* found);
 };
 
-/// The loops by this machine's instructions.
-const Loops& loops();
-
-/// The loops by the instructions that all machines have; for tests.
+/// The loops by the instructions that all machines have.
 const Loops& plain_loops();
+
+/// The loops by this machine's instructions.
+const Loops& best_loops();
+inline const Loops& loops() {
+  static const Loops& best = best_loops();
+  return best;
+}
 
 }  // namespace lcs

@@ -236,16 +236,17 @@ TEST(PointGrid, FindsNothingNearestAmongNone) {
 
 TEST(Couples, AreSortedByCostThenByIndex) {
   Random random(6);
-  std::vector<Couple> couples, room;
-  sort_couples(couples, room);
+  CoupleSorter sorter;
+  std::vector<Couple> couples;
+  sorter.sort(couples, 7);
   for (int i = 0; i < 2000; ++i) {
-    // Equal costs, zero, and costs of all sizes.
-    const double cost = i % 3 == 0 ? i % 7 : std::exp(random.uniform(-80, 80));
+    // Equal costs, both bounds, and costs of all sizes.
+    const double cost = i % 3 == 0 ? i % 8 : 7 * std::exp(random.uniform(-80, 0));
     couples.emplace_back(cost, static_cast<int>(random.uniform(0, 9)), i);
   }
   std::vector<Couple> expected = couples;
   std::sort(expected.begin(), expected.end());
-  sort_couples(couples, room);
+  sorter.sort(couples, 7);
   for (std::size_t i = 0; i < couples.size(); ++i) {
     EXPECT_EQ(couples[i].cost, expected[i].cost);
     EXPECT_EQ(couples[i].b, expected[i].b);
