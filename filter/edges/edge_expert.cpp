@@ -59,6 +59,28 @@ void EdgeExpert::predict_tracks(const MotionField& field) {
   }
 }
 
+/// Moves the predictions to where a corrected motion puts them. Their covariances stay.
+void EdgeExpert::correct_predictions(const MotionField& field) {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    Track& next = predicted_[t];
+    next.place_px = field.rotated(track.place_px);
+    next.displacement_C_m = field.R_cur_prev() * track.displacement_C_m + field.displacement_C_m();
+    if (!track.has_motion()) {
+      next.as_static = StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m,
+                                              last_noise2_px2_);
+    } else {
+      next.as_static.move(track.as_static, camera_, field);
+      next.as_moving.place_px = track.as_moving.moved(field);
+    }
+  }
+}
+
+/// \param track -1: none.
+bool EdgeExpert::has_residual(int track, bool started) const {
+  return track >= 0 && (!started || predicted_[track].has_motion());
+}
+
 /// Distances of the corners from the static predictions of their tracks. Uses tracks with a motion;
 /// before any track has one (`started` is false), it uses tracks seen once.
 void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
@@ -66,9 +88,8 @@ void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
   residuals_.clear();
   const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (track_of[c] < 0) continue;
+    if (!has_residual(track_of[c], started)) continue;
     const Track& track = predicted_[track_of[c]];
-    if (started && !track.has_motion()) continue;
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
     StaticPoint seen = point;
@@ -80,6 +101,15 @@ void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
     residuals_.push_back({point.place_px, x - point.place_px, point.spread(noise2_px2_), by_depth,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
+  }
+}
+
+/// Measures the distances from corrected predictions.
+void EdgeExpert::correct_residuals(const Chi& chi, const std::vector<int>& track_of, bool started) {
+  auto residual = residuals_.begin();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (!has_residual(track_of[c], started)) continue;
+    (residual++)->off_px = chi.locations[c] - predicted_[track_of[c]].as_static.place_px;
   }
 }
 
@@ -332,11 +362,11 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     const MotionFix off =
         motion_finder_.find(camera_, field, residuals_, velocity_error_.covariance());
     field = field.corrected(off.turn_rad, velocity_error_.see(off));
-    predict_tracks(field);
+    correct_predictions(field);
     // In the second frame no depth is known that could contradict the motion. It is checked only if
     // the motion of the last frame was contradicted.
     if (started || is_after_none) {
-      find_residuals(field, chi, *track_of, started);
+      correct_residuals(chi, *track_of, started);
       if (is_contradicted(residuals_)) motion = UsedMotion::none;
     }
   }

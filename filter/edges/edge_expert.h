@@ -51,12 +51,15 @@ class EdgeExpert {
  private:
   void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
+  void correct_predictions(const MotionField& field);
   const std::vector<int>& follow(const MotionField& field, const Chi& chi);
   bool is_held(const MotionField& held, const Chi& chi, const std::vector<int>& track_of) const;
   bool is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
                       const std::vector<int>& track_of) const;
   void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
                       bool started);
+  void correct_residuals(const Chi& chi, const std::vector<int>& track_of, bool started);
+  bool has_residual(int track, bool started) const;
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;

@@ -15,7 +15,7 @@ OwnMotion OwnMotion::first(const Vec2& before_px, const Vec2& x_px, double noise
 OwnMotion OwnMotion::predicted(const MotionField& field, double acceleration) const {
   const double dt = field.dt_s();
   OwnMotion next;
-  next.place_px = field.rotated(place_px) + velocity_pxps * dt;
+  next.place_px = moved(field);
   next.velocity_pxps = velocity_pxps;
   Eigen::Matrix2d F;
   F << 1, dt, 0, 1;

@@ -18,6 +18,10 @@ struct OwnMotion {
   /// From two sightings; `before_px` in this frame's pixels.
   static OwnMotion first(const Vec2& before_px, const Vec2& x_px, double noise2_px2, double dt_s);
 
+  /// Its place in the next frame.
+  Vec2 moved(const MotionField& field) const {
+    return field.rotated(place_px) + velocity_pxps * field.dt_s();
+  }
   /// Predicts it to the next frame.
   /// \param acceleration 1/s: relative change of the velocity per second.
   OwnMotion predicted(const MotionField& field, double acceleration) const;

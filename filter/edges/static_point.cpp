@@ -74,27 +74,35 @@ StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& cam
   return point;
 }
 
-StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& field,
-                                   double ego_share) const {
+StaticPoint::Step StaticPoint::move(const StaticPoint& before, const Intrinsics& camera,
+                                    const MotionField& field) {
   const Eigen::Vector3d d = field.displacement_C_m();
-  const Vec2 shift = camera.focal_px * d.head<2>();
-  const Vec2 rotated = field.rotated(place_px);
-  const Vec2 h = rotated - camera.centre_px;
+  Step step;
+  step.rotated_px = field.rotated(before.place_px);
+  const Vec2 h = step.rotated_px - camera.centre_px, shift = camera.focal_px * d.head<2>();
   // A point that the camera passes within the frame is put at z_min. A point turned behind the
   // camera has no image and keeps its place and inverse depth.
   const double nearest = nearest_pm(field);
-  const Vec2 before = (place_px - camera.centre_px) / camera.focal_px;
-  const double Z = field.R_cur_prev().row(2).dot(before.homogeneous());  // Z after R / Z before
-  const double turned = Z > 0 ? std::max(inverse_depth_pm / nearest, Z) : 1;
-  const double w = inverse_depth_pm / turned;
+  const Vec2 ray = (before.place_px - camera.centre_px) / camera.focal_px;
+  const double Z = field.R_cur_prev().row(2).dot(ray.homogeneous());  // Z after R / Z before
+  const double turned = Z > 0 ? std::max(before.inverse_depth_pm / nearest, Z) : 1;
+  const double w = before.inverse_depth_pm / turned;
   const double nearing = std::max(w / nearest, 1 - w * d.z());
+  place_px = camera.centre_px + (h - w * shift) / nearing;
+  inverse_depth_pm = w / nearing;
+  step.a = 1 / nearing;
+  step.c = step.a * step.a / turned;
+  step.b = step.c * (h * d.z() - shift);
+  return step;
+}
+
+StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& field,
+                                   double ego_share) const {
   StaticPoint next;
-  next.place_px = camera.centre_px + (h - w * shift) / nearing;
-  next.inverse_depth_pm = w / nearing;
+  const auto [rotated, a, b, c] = next.move(*this, camera, field);
   // F C F^T, with the derivatives F = [a I, b; 0, c].
-  const double a = 1 / nearing, c = a * a / turned, C_ww = covariance(2, 2);
-  const Vec2 b = c * (h * d.z() - shift), C_xw = covariance.topRightCorner<2, 1>();
-  const Vec2 next_xw = a * C_xw + C_ww * b;
+  const double C_ww = covariance(2, 2);
+  const Vec2 C_xw = covariance.topRightCorner<2, 1>(), next_xw = a * C_xw + C_ww * b;
   next.covariance.topLeftCorner<2, 2>() = a * a * covariance.topLeftCorner<2, 2>() +
                                           a * C_xw * b.transpose() + b * next_xw.transpose() +
                                           wrong_flow(next.place_px - rotated, ego_share);

@@ -51,6 +51,16 @@ struct StaticPoint {
   /// \param ego_share relative error of the camera's velocity, and so of the image motion.
   StaticPoint predicted(const Intrinsics& camera, const MotionField& field, double ego_share) const;
 
+  /// The rotated place of a point, and derivatives of its prediction: F = [a I, b; 0, c].
+  struct Step {
+    Vec2 rotated_px;
+    double a;
+    Vec2 b;
+    double c;
+  };
+  /// Sets place and inverse depth to those of a point of the last frame, predicted by a motion.
+  Step move(const StaticPoint& before, const Intrinsics& camera, const MotionField& field);
+
   /// Updates a predicted point by a sighting, and clamps its depth to the bounds.
   /// \return the density of the sighting, given the prediction, 1/px^2.
   double see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
