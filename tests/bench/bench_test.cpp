@@ -158,8 +158,7 @@ TEST(Timed, ADetectorsTimeIsThatOfItsThreadAndLeavesOutWhatItWaits) {
 /// Corners of events are near FAST's, which see the same outlines, and their truth is that of the
 /// surfaces at their places.
 TEST(CornersOfEvents, AreOnTheOutlinesThatThePicturesShow) {
-  const std::vector<std::string> sets{"frames=6", "events={}", "corners.from=events",
-                                      "camera.size=[320, 240]"};
+  const std::vector<std::string> sets{"frames=4", "events={}", "corners.from=events"};
   const scenario::Scenario scenario =
       scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = sets, .seed = {}});
   const auto run_once = [&] {
