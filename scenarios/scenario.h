@@ -308,10 +308,10 @@ struct Actor {
 };
 
 /// The names of the on-disk layouts of recordings (`tools/replay/recorded.h` reads them).
-inline constexpr std::array<const char*, 12> kRecordingFormats{
-    "euroc",     "kitti",    "kitti_odometry", "kitti_tracking",
-    "kitti_360", "robotcar", "tum_rgbd",       "listed",
-    "mot",       "bag",      "video",          "pictures"};
+inline constexpr std::array<const char*, 13> kRecordingFormats{
+    "euroc",    "kitti",    "kitti_odometry", "kitti_tracking", "kitti_360",
+    "robotcar", "tum_rgbd", "rpg_events",     "listed",         "mot",
+    "bag",      "video",    "pictures"};
 
 /// Frames of a real camera, instead of a simulation's. The layout supplies values that are absent
 /// here; others are unknown, never invented. Camera frame: x right, y down, z forward.

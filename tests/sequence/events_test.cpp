@@ -1,6 +1,7 @@
 // Sequences with events: RPG's text and DSEC's HDF5 have the events of the simulation.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -12,6 +13,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/process/python.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::sequence {
 namespace {
@@ -103,6 +105,83 @@ for ms, first in enumerate(firsts):
   const std::vector<std::string> arguments{folder().string()};
   const process::PythonEnd end = process::run_python(home_.path() / "read.py", arguments);
   EXPECT_TRUE(end.is_fine) << end.err;
+}
+
+/// The corners are those of the events, so that pictures without contrast give the same.
+TEST_F(Events, AreReplayedAsCorners) {
+  ASSERT_EQ(generate("events").exit_code, 0);
+  const auto replay = [&](const std::string& name) {
+    const fs::path out = home_.path() / name;
+    const CommandResult result = run_lcs({"replay", folder() / "rpg", "--corners", "events",
+                                          "--nothing-moves", "--out", out, "--no-video", "--quiet"},
+                                         {home_.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<std::vector<Eigen::Vector2f>> corners;
+    for (const bench::FrameRecord& frame : bench::read_recording(out).frames) {
+      corners.push_back(frame.corners_px);
+    }
+    return corners;
+  };
+  const auto corners = replay("seen");
+  ASSERT_EQ(corners.size(), 4U);
+  EXPECT_TRUE(corners[0].empty());
+  EXPECT_GT(corners[1].size() + corners[2].size() + corners[3].size(), 30U);
+  for (const auto& entry : fs::directory_iterator(folder() / "rpg/images")) {
+    fs::remove(entry);
+    cv::imwrite(entry.path().string(), cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
+  }
+  EXPECT_EQ(replay("blind"), corners);
+}
+
+/// A turn on the spot, by the truth and, with a calibration, by the IMU.
+TEST_F(Events, ComeWithTheMotionOfTruthOrImu) {
+  ASSERT_EQ(run_lcs({"generate", file(), "--formats", "events,kalibr", "--out", folder(), "--quiet",
+                     "--set", "ego={start: [-3 m, 0 m], yaw_rate: 0.5 rad/s}", "--set",
+                     "imu={preset: ideal}", "--set", "camera.time_offset="},
+                    {home_.path()})
+                .exit_code,
+            0);
+  const auto turns_of = [&](const std::string& name, std::vector<std::string> more) {
+    const fs::path out = home_.path() / name;
+    std::vector<std::string> words{
+        "replay", folder() / "rpg", "--nothing-moves", "--no-video", "--quiet", "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandResult result = run_lcs(words, {home_.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<EgoMotion> motions;
+    for (const bench::FrameRecord& frame : bench::read_recording(out).frames) {
+      motions.push_back(frame.motion);
+    }
+    return motions;
+  };
+  const std::vector<EgoMotion> by_truth = turns_of("truth", {});
+  const std::vector<EgoMotion> by_imu =
+      turns_of("imu", {"--calibration", folder() / "kalibr/camchain.yaml"});
+  ASSERT_EQ(by_truth.size(), 4U);
+  ASSERT_EQ(by_imu.size(), 4U);
+  for (std::size_t k = 1; k < 4; ++k) {
+    const Eigen::AngleAxisd apart(by_truth[k].R_cur_prev.transpose() * by_imu[k].R_cur_prev);
+    EXPECT_NEAR(Eigen::AngleAxisd(by_truth[k].R_cur_prev).angle(), 0.05, 1e-6);
+    EXPECT_LT(apart.angle(), 1e-4) << k;
+    EXPECT_NE(by_truth[k].R_cur_prev, by_imu[k].R_cur_prev);
+  }
+}
+
+TEST_F(Events, OfOtherPicturesAndInDisorderAreRefusedWithTheirPlace) {
+  ASSERT_EQ(generate("events").exit_code, 0);
+  const fs::path file = folder() / "rpg/events.txt";
+  const std::string whole = bench::read(file);
+  const auto refusal = [&](const std::string& events) {
+    bench::write(file, events);
+    const CommandResult result = run_lcs({"replay", folder() / "rpg", "--corners", "events",
+                                          "--out", home_.path() / "none", "--quiet"},
+                                         {home_.path()});
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_NE(refusal("1000000000.5 320 3 1\n").find("an event of "), std::string::npos);
+  EXPECT_NE(refusal("5.5 1 3 1\n5.4 1 3 1\n").find("events.txt:2: is earlier"), std::string::npos);
+  EXPECT_NE(refusal("").find("corners.from is 'events', and "), std::string::npos);
 }
 
 TEST_F(Events, OfACameraWithoutEventPixelsAreRefused) {
