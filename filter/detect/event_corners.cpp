@@ -111,21 +111,36 @@ cv::Mat1b ArcStar::picture() const {
 
 void EventCorners::add(int x, int y, std::int64_t t_ns, bool is_on) {
   if (!arc_star_.add(x, y, t_ns, is_on)) return;
-  const Eigen::Vector2f place_px(static_cast<float>(x), static_cast<float>(y));
-  Chain* nearest = nullptr;
-  float nearest_px = kReach_px;
-  for (Chain& chain : chains_) {
-    const float away_px = (chain.events_px.back() - place_px).norm();
-    if (away_px > nearest_px || (nearest != nullptr && away_px == nearest_px)) continue;
-    nearest = &chain;
-    nearest_px = away_px;
+  static_assert(kReach_px < ArcStar::kBorder_px);
+  int nearest = kNone, nearest_px2 = 0;
+  for (int dy = -kReach_px; dy <= kReach_px; ++dy) {
+    for (int dx = -kReach_px; dx <= kReach_px; ++dx) {
+      const int chain = chain_at_(y + dy, x + dx), px2 = dx * dx + dy * dy;
+      if (chain == kNone || px2 > kReach_px * kReach_px) continue;
+      // of two at one distance the elder
+      if (nearest != kNone && std::tie(nearest_px2, nearest) < std::tie(px2, chain)) continue;
+      nearest = chain;
+      nearest_px2 = px2;
+    }
   }
-  if (nearest == nullptr) nearest = &chains_.emplace_back();
-  nearest->events_px.push_back(place_px);
-  nearest->last_ns = t_ns;
+  if (nearest == kNone) {
+    nearest = static_cast<int>(chains_.size());
+    chains_.emplace_back();
+  }
+  Chain& chain = chains_[static_cast<std::size_t>(nearest)];
+  if (!chain.events_px.empty()) pixel_of(chain) = kNone;
+  chain.events_px.emplace_back(static_cast<float>(x), static_cast<float>(y));
+  chain.last_ns = t_ns;
+  pixel_of(chain) = nearest;
+}
+
+int& EventCorners::pixel_of(const Chain& chain) {
+  const Eigen::Vector2i px = chain.events_px.back().cast<int>();
+  return chain_at_(px.y(), px.x());
 }
 
 std::vector<Eigen::Vector2f> EventCorners::step() {
+  for (const Chain& chain : chains_) pixel_of(chain) = kNone;
   std::erase_if(chains_, [](const Chain& chain) { return chain.events_px.size() < kLeastEvents; });
   // chains are in the order of their first events, so that equal times keep an order
   std::ranges::stable_sort(chains_, std::ranges::greater(), &Chain::last_ns);

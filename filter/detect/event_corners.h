@@ -64,10 +64,12 @@ class ArcStar {
 /// event is within `kApart_px`: that one is where the corner has gone.
 class EventCorners {
  public:
-  static constexpr float kReach_px = 3, kApart_px = 5;
+  static constexpr int kReach_px = 3;
+  static constexpr float kApart_px = 5;
   static constexpr std::size_t kLeastEvents = 3, kMeanEvents = 4;
 
-  EventCorners(int width_px, int height_px) : arc_star_(width_px, height_px) {}
+  EventCorners(int width_px, int height_px)
+      : arc_star_(width_px, height_px), chain_at_(height_px, width_px, kNone) {}
 
   /// As `ArcStar::add`.
   void add(int x, int y, std::int64_t t_ns, bool is_on);
@@ -78,12 +80,16 @@ class EventCorners {
   const ArcStar& arc_star() const { return arc_star_; }
 
  private:
+  static constexpr int kNone = -1;
   struct Chain {
     std::vector<Eigen::Vector2f> events_px;  ///< in order of time
     std::int64_t last_ns = 0;
   };
+  int& pixel_of(const Chain& chain);
+
   ArcStar arc_star_;
   std::vector<Chain> chains_;
+  cv::Mat1i chain_at_;  ///< place in `chains_` of the one whose last event is at the pixel
 };
 
 }  // namespace lcs
