@@ -284,6 +284,22 @@ void fields(Odometry& odometry, Visit&& visit) {
   visit({"scale_error", "standard deviation of a factor drawn once a run"}, scale_error, kRatio);
 }
 
+template <class Visit>
+void fields(Events& events, Visit&& visit) {
+  auto& [source, positive, negative, spread, refractory_s, leak_hz, shot_hz, dark_lx] = events;
+  visit({"positive", "mean contrast, of the natural logarithm of light, that gives an ON event"},
+        positive, kContrast);
+  visit({"negative", "likewise of an OFF event"}, negative, kContrast);
+  visit({"spread", "standard deviation of both contrasts between pixels"}, spread, kRatio);
+  visit({"refractory", "after an event the pixel gives none for this long"}, refractory_s,
+        In{kShutter, "ms"});
+  visit({"leak", "ON events a second of a pixel in constant light"}, leak_hz, kNoiseRate);
+  visit({"shot", "events a second by noise of a pixel in the dark; a quarter of it in daylight"},
+        shot_hz, kNoiseRate);
+  visit({"dark", "light on a white surface that gives as much current as a pixel has in the dark"},
+        dark_lx, kDarkLight);
+}
+
 // --- light, weather and the ground
 
 template <class Visit>
@@ -603,16 +619,22 @@ void fields(Criterion& criterion, Visit&& visit) {
 }
 
 struct CornerKeys {
+  CornerSource from = CornerSource::pictures;
   std::optional<int> threshold = kFastThreshold;
 };
 
 template <class Visit>
 void fields(CornerKeys& corners, Visit&& visit) {
-  auto& [threshold] = corners;
+  auto& [from, threshold] = corners;
+  visit({"from",
+         "`pictures`: FAST; `events`: Arc* (`filter/detect/event_corners.h`), on the events since "
+         "the frame before"},
+        from, Words{{"pictures", "events"}});
   visit({"threshold",
          "of the FAST detector, in grey levels; `auto`: by the noise and the compression of each "
          "picture (`filter/detect/picture_noise.h`), 20 where there is little"},
         threshold, OrWord<Whole>{{1, 254}, "auto"});
+  if (from == CornerSource::events) visit.in_place_of("from", {"threshold"});
 }
 
 inline const Scenario& default_scenario() {
@@ -636,9 +658,9 @@ void fields(TruthKeys& truth, Visit&& visit) {
 template <class Visit>
 void fields(Scenario& scenario, Visit&& visit) {
   auto& [name, file, purpose, groups, recording, scene, scene_source, origin, seed, frames, ego,
-         camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, fast_threshold,
-         truth_min_depth_m, image, ground, actors, filter_preset, filter_preset_source, filter,
-         criteria, world, sweep] = scenario;
+         camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, events,
+         corner_source, fast_threshold, truth_min_depth_m, image, ground, actors, filter_preset,
+         filter_preset_source, filter, criteria, world, sweep] = scenario;
   visit({"purpose", "one line for people", "none"}, purpose);
   visit({"groups", "list of the groups that a suite chooses by, as in `[short, night]`"}, groups,
         GroupNames{});
@@ -688,22 +710,26 @@ void fields(Scenario& scenario, Visit&& visit) {
     odometry = *measured;
     odometry.enabled = true;
   }
+  visit({"events", "of event pixels, one for each pixel of the camera; `{}` has the defaults",
+         "none"},
+        events);
   TruthKeys truth{truth_min_depth_m};
   visit({"truth", "how the truth is made"}, truth);
   truth_min_depth_m = truth.min_depth_m;
   visit({"image", "what the camera makes of the scene", "a real sensor's noise"}, image);
   visit({"ground", "bumps on the floor", "level"}, ground);
   visit({"actors", "who else moves, by name", "none"}, actors);
-  visit.in_place_of("recording",
-                    {"scene", "origin", "seed", "ego", "camera", "cameras", "filter_camera",
-                     "duration", "imu", "odometry", "truth", "image", "ground", "actors"});
+  visit.in_place_of(
+      "recording", {"scene", "origin", "seed", "ego", "camera", "cameras", "filter_camera",
+                    "duration", "imu", "odometry", "events", "truth", "image", "ground", "actors"});
   visit({"ego_motion",
          "what the filter is told of the rover's own motion: `imu` integrates the simulated IMU "
          "(with odometry, if there is some); `truth` is for experiments"},
         ego_motion, Words{{"imu", "truth"}});
-  CornerKeys corners{fast_threshold};
+  CornerKeys corners{corner_source, fast_threshold};
   visit({"corners", "how corners are found"}, corners);
   fast_threshold = corners.threshold;
+  corner_source = corners.from;
   visit({"filter", "parameters of the filter", "its own"}, filter,
         FilterParameters{filter_preset, filter_preset_source});
   visit({"criteria", "bounds on the metrics", "none"}, criteria);

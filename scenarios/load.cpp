@@ -502,8 +502,21 @@ void complete(input::Reader& reader, Camera& camera) {
       is_vertical ? 0 : std::atan2(R(1, 0), R(0, 0))};
 }
 
+void require_events(input::Reader& reader, const Scenario& scenario) {
+  if (scenario.corner_source == CornerSource::events && !scenario.events && !scenario.recording) {
+    throw input::Error(reader.find("corners")->where,
+                       "corners.from is 'events', and the camera has no event pixels; add "
+                       "'events: {}'");
+  }
+  if (scenario.events && scenario.image.rain) {
+    throw input::Error(scenario.events->source,
+                       "events see no rain, and image.rain is given; remove one of the two");
+  }
+}
+
 /// Chooses the camera of the detectors.
 void complete(input::Reader& reader, Scenario& scenario) {
+  require_events(reader, scenario);
   if (scenario.cameras.empty() && scenario.filter_camera.empty()) return;
   const auto found = std::ranges::find(scenario.cameras, scenario.filter_camera, &RigCamera::name);
   if (found == scenario.cameras.end() && !scenario.filter_camera.empty()) {

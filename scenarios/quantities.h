@@ -27,6 +27,9 @@ inline constexpr input::Quantity kSensorRate{input::Dimension::frequency, {0, 10
 inline constexpr input::Quantity kNoiseDensity{input::Dimension::number, {0, 1000}};
 inline constexpr input::Quantity kIlluminance{input::Dimension::illuminance, {0, 200000}};
 inline constexpr input::Quantity kIntensity{input::Dimension::intensity, {0, 1000000}};
+inline constexpr input::Quantity kContrast{input::Dimension::number, {0.01, 10}};
+inline constexpr input::Quantity kNoiseRate{input::Dimension::frequency, {0, 10000}};
+inline constexpr input::Quantity kDarkLight{input::Dimension::illuminance, {1e-6, 200000}};
 inline constexpr input::Quantity kBeam{input::Dimension::angle, {0, 90, true}};
 inline constexpr input::Quantity kBlur{input::Dimension::number, {0, 50}};
 inline constexpr input::Quantity kDropLife{input::Dimension::time, {0.01, 100000}};

@@ -187,6 +187,25 @@ struct Odometry {
   double scale_error = 0.005;     ///< standard deviation of a scale drawn once per run
 };
 
+/// Event pixels behind the camera's lens, one for each pixel of its pictures, as in a DAVIS.
+/// `sim/events/event_sensor.h` has the model. Contrasts are differences of the natural logarithm of
+/// light.
+struct Events {
+  input::Source source;
+  double positive = 0.2;       ///< mean contrast of an ON event, > 0
+  double negative = 0.2;       ///< mean contrast of an OFF event, > 0
+  double spread = 0.03;        ///< standard deviation of both between pixels
+  double refractory_s = 5e-4;  ///< after an event the pixel gives none for this long
+  double leak_hz = 0.1;        ///< ON events a second of a pixel that sees constant light
+  double shot_hz = 1;          ///< events by noise of a pixel in the dark, a second
+  double dark_lx = 0.1;        ///< light on a white surface that equals the dark current
+};
+
+enum class CornerSource {
+  pictures,  ///< FAST in each picture
+  events,    ///< Arc* in the events (`filter/detect/event_corners.h`)
+};
+
 enum class EgoMotionSource {
   imu,    ///< strapdown integration of the simulated IMU (and odometry if enabled)
   truth,  ///< exact poses, for experiments that state this
@@ -289,10 +308,10 @@ struct Actor {
 };
 
 /// The names of the on-disk layouts of recordings (`tools/replay/recorded.h` reads them).
-inline constexpr std::array<const char*, 12> kRecordingFormats{
-    "euroc",     "kitti",    "kitti_odometry", "kitti_tracking",
-    "kitti_360", "robotcar", "tum_rgbd",       "listed",
-    "mot",       "bag",      "video",          "pictures"};
+inline constexpr std::array<const char*, 13> kRecordingFormats{
+    "euroc",    "kitti",    "kitti_odometry", "kitti_tracking", "kitti_360",
+    "robotcar", "tum_rgbd", "rpg_events",     "listed",         "mot",
+    "bag",      "video",    "pictures"};
 
 /// Frames of a real camera, instead of a simulation's. The layout supplies values that are absent
 /// here; others are unknown, never invented. Camera frame: x right, y down, z forward.
@@ -411,6 +430,8 @@ struct Scenario {
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
+  std::optional<Events> events;  ///< absent: no event pixels
+  CornerSource corner_source = CornerSource::pictures;
   /// Threshold of FAST, 1 to 254 grey levels; absent: adaptive per image (`threshold: auto`).
   std::optional<int> fast_threshold = kFastThreshold;
   double truth_min_depth_m = 0.5;  ///< least depth of the static segment (`radial`)

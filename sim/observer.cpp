@@ -9,6 +9,7 @@
 
 #include "sim/camera/linear_light.h"
 #include "sim/drive.h"
+#include "sim/events/sampling.h"
 #include "sim/random.h"
 
 namespace lcs::sim {
@@ -30,13 +31,15 @@ std::vector<ConvexParts> outlines(const World& world) {
   return parts;
 }
 
+/// Each camera of a rig has its own noise; that of the first is as of a single camera.
+std::uint64_t noise_seed(const scenario::Scenario& s) {
+  if (s.rig_place == 0) return s.seed;
+  return RandomStream(s.seed, fmt::format("camera.{}", s.rig_place)).bits();
+}
+
 Photographer photographer_of(const scenario::Scenario& s, const Optics& camera) {
   try {
-    // Each camera of a rig has its own noise; that of the first is as of a single camera.
-    const std::uint64_t seed =
-        s.rig_place == 0 ? s.seed
-                         : RandomStream(s.seed, fmt::format("camera.{}", s.rig_place)).bits();
-    return {s.image, camera, s.camera.rate_hz, seed};
+    return {s.image, camera, s.camera.rate_hz, noise_seed(s)};
   } catch (const std::invalid_argument& error) {
     throw input::Error({s.file.string(), 0}, error.what());
   }
@@ -51,7 +54,11 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
       renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups()),
       parts_(outlines(world_)),
       photographer_(photographer_of(scenario, calibration_.optics)),
-      passage_(world_, scenario) {}
+      passage_(world_, scenario) {
+  if (scenario.events) {
+    event_sensor_.emplace(*scenario.events, calibration_.optics.size_px(), noise_seed(scenario));
+  }
+}
 
 Observation Observer::observe() {
   Observation o;
@@ -60,6 +67,7 @@ Observation Observer::observe() {
   FrameState frame = std::move(passage_.frame());
   passage_.advance(o);
   if (!shutter.is_instant()) render_through_shutter(frame, o);
+  if (event_sensor_) sense_events(frame, o);
   develop(o);
   o.truth.now = std::move(frame.now);
   o.truth.v_WC_mps = frame.v_WC_mps;
@@ -93,6 +101,10 @@ void Observer::note_unseen() {
 }
 
 void Observer::advance() {
+  if (event_sensor_) {
+    observe();
+    return;
+  }
   Observation skipped;
   passage_.advance(skipped);
 }
@@ -109,43 +121,103 @@ void Observer::show(const Stage& stage) {
   renderer_.update();
 }
 
-/// The longest way that a visible point takes through the picture during the shutter's window, from
-/// every eighth pixel of the drawing in its middle.
-double Observer::shift_px(const FrameState& frame, const cv::Mat1f& depth_m,
-                          const cv::Mat1i& geom) const {
+/// Calls `on_point(parts_px)` for every eighth pixel of a drawing, with the lengths of the ways
+/// that its point takes through the picture from each of the snapshots to the next. \param
+/// reference the snapshot of the drawing.
+template <class OnPoint>
+void Observer::visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
+                          const cv::Mat1f& depth_m, const cv::Mat1i& geom,
+                          OnPoint&& on_point) const {
   constexpr int kStride_px = 8;
-  constexpr std::size_t kParts = 8;
   const Optics& optics = calibration_.optics;
-  const std::vector<Snapshot>& at = frame.snapshots;
-  const Snapshot& middle = at[Shutter::kMiddle];
-  // from the camera in the middle to that at each time, for each object
-  std::vector<std::vector<Pose>> ways(middle.T_WO.size());
+  // from the camera of the drawing to that at each time, for each object
+  std::vector<std::vector<Pose>> ways(reference.T_WO.size());
   for (std::size_t id = 0; id < ways.size(); ++id) {
-    const Pose T_OC = middle.T_WO[id].inverse() * middle.T_WC;
-    for (std::size_t part = 0; part <= kParts; ++part) {
-      const Snapshot& then = at[part * (at.size() - 1) / kParts];
-      ways[id].push_back(then.T_WC.inverse() * (then.T_WO[id] * T_OC));
+    const Pose T_OC = reference.T_WO[id].inverse() * reference.T_WC;
+    for (const Snapshot* then : at) {
+      ways[id].push_back(then->T_WC.inverse() * (then->T_WO[id] * T_OC));
     }
   }
-  double longest_px = 0;
+  std::vector<double> parts_px(at.size() - 1);
   for (int y = 0; y < geom.rows; y += kStride_px) {
     for (int x = 0; x < geom.cols; x += kStride_px) {
       const int object = geom(y, x) < 0 ? -1 : world_.object_of_geom(geom(y, x));
       if (object < 0) continue;
       const Eigen::Vector3d p_C = optics.back_project(Eigen::Vector2d(x, y), depth_m(y, x));
-      double way_px = 0;
+      std::ranges::fill(parts_px, 0.0);
       std::optional<Eigen::Vector2d> last_px;
-      for (const Pose& way : ways[static_cast<std::size_t>(object)]) {
-        const Eigen::Vector3d there = way * p_C;
+      const std::vector<Pose>& way = ways[static_cast<std::size_t>(object)];
+      for (std::size_t i = 0; i < way.size(); ++i) {
+        const Eigen::Vector3d there = way[i] * p_C;
         if (there.z() < renderer_.near_m()) break;
         const Eigen::Vector2d px = optics.project(there);
-        if (last_px && px.allFinite()) way_px += (px - *last_px).norm();
+        if (last_px && px.allFinite()) parts_px[i - 1] = (px - *last_px).norm();
         last_px = px;
       }
-      longest_px = std::max(longest_px, way_px);
+      on_point(parts_px);
     }
   }
+}
+
+/// The longest way that a visible point takes through the picture during the shutter's window.
+double Observer::shift_px(const FrameState& frame, const cv::Mat1f& depth_m,
+                          const cv::Mat1i& geom) const {
+  constexpr std::size_t kParts = 8;
+  const std::vector<Snapshot>& all = frame.snapshots;
+  std::vector<const Snapshot*> at;
+  for (std::size_t part = 0; part <= kParts; ++part) {
+    at.push_back(&all[part * (all.size() - 1) / kParts]);
+  }
+  double longest_px = 0;
+  visit_ways(at, all[Shutter::kMiddle], depth_m, geom, [&](const std::vector<double>& parts_px) {
+    double way_px = 0;
+    for (const double part_px : parts_px) way_px += part_px;
+    longest_px = std::max(longest_px, way_px);
+  });
   return longest_px;
+}
+
+/// Shows event pixels the world at instants since the last frame between which nothing that the
+/// pictures at both ends show shifts by more than `kMostEventShift_px`.
+void Observer::sense_events(const FrameState& frame, Observation& o) {
+  const std::vector<EventInstant>& instants = frame.event_instants;
+  std::vector<std::size_t> chosen{0};
+  if (sensed_) {
+    std::vector<const Snapshot*> at{&sensed_->now};
+    for (std::size_t part = 1; part <= kEventParts; ++part) {
+      at.push_back(&instants[part * kEventCells / kEventParts - 1].snapshot);
+    }
+    std::vector<double> parts_px(kEventParts, 0.0);
+    const auto take_longest = [&](const std::vector<double>& of_point) {
+      for (std::size_t i = 0; i < kEventParts; ++i) {
+        parts_px[i] = std::max(parts_px[i], of_point[i]);
+      }
+    };
+    visit_ways(at, sensed_->now, sensed_->depth_m, sensed_->geom, take_longest);
+    visit_ways(at, frame.now, o.truth.depth_m, o.geom, take_longest);
+    const EventSampling sampling = sample_events(parts_px);
+    chosen = sampling.cells;
+    if (sampling.most_shift_px > kMostEventShift_px) {
+      world_.warnings().add(
+          Warning::coarse_events,
+          fmt::format("up to frame {} the picture shifts by {:.1f} px between two of the {} "
+                      "instants at which events are sampled",
+                      o.index, sampling.most_shift_px, chosen.size()));
+    }
+  }
+  const Stage present = world_.stage();
+  cv::Mat3b drawing;
+  cv::Mat1f depth_m;
+  cv::Mat1i geom;
+  for (const std::size_t cell : chosen) {
+    show(instants[cell].stage);
+    renderer_.render_colour(drawing);
+    if (photographer_.depends_on_depth()) renderer_.render_depth_and_geoms(depth_m, geom);
+    CameraRenderer::blur(drawing, drawing);
+    event_sensor_->see(photographer_.light(drawing, depth_m), instants[cell].t_ns, o.events);
+  }
+  world_.show(present);
+  sensed_ = {frame.now, o.truth.depth_m.clone(), o.geom.clone()};
 }
 
 void Observer::render_through_shutter(const FrameState& frame, Observation& o) {

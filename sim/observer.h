@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "sim/camera/lens_renderer.h"
 #include "sim/camera/photograph.h"
+#include "sim/events/event_sensor.h"
 #include "sim/simulation.h"
 #include "sim/truth/silhouette.h"
 #include "sim/world/passage.h"
@@ -40,7 +42,11 @@ class Observer {
   void render(Observation& o);
   void render_through_shutter(const FrameState& frame, Observation& o);
   void show(const Stage& stage);
+  template <class OnPoint>
+  void visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
+                  const cv::Mat1f& depth_m, const cv::Mat1i& geom, OnPoint&& on_point) const;
   double shift_px(const FrameState& frame, const cv::Mat1f& depth_m, const cv::Mat1i& geom) const;
+  void sense_events(const FrameState& frame, Observation& o);
   void develop(Observation& o);
   std::vector<double> areas_px(const cv::Mat1i& object) const;
   std::vector<ObjectTruth> visible_objects(const FrameTruth& truth) const;
@@ -53,6 +59,14 @@ class Observer {
   std::vector<ConvexParts> parts_;
   Photographer photographer_;
   Passage passage_;
+  std::optional<EventSensor> event_sensor_;
+  /// The last frame as event pixels have it.
+  struct Sensed {
+    Snapshot now;
+    cv::Mat1f depth_m;
+    cv::Mat1i geom;
+  };
+  std::optional<Sensed> sensed_;
   int observed_ = 0;    ///< number of frames rendered
   std::set<int> seen_;  ///< objects with a visible pixel in any of them
 };

@@ -78,6 +78,10 @@ double RandomStream::uniform() {
   return static_cast<double>(bits() >> 11) * 0x1p-53;
 }
 
+double RandomStream::exponential() {
+  return -portable_log(1 - uniform());
+}
+
 /// A pair of normals by Marsaglia's polar method, which needs no sine.
 double RandomStream::normal() {
   if (second_normal_) {

@@ -27,6 +27,7 @@ class RandomStream {
   std::uint64_t bits();  ///< 64 random bits
   double uniform();      ///< in [0, 1), a multiple of 2^-53
   double normal();       ///< mean 0, variance 1
+  double exponential();  ///< mean 1
 
  private:
   std::array<std::uint32_t, 2> key_;

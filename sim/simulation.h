@@ -12,6 +12,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/camera/optics.h"
+#include "sim/events/event.h"
 #include "sim/imu/imu.h"
 #include "sim/pose.h"
 #include "sim/truth/truth.h"
@@ -32,6 +33,8 @@ struct Observation {
   std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
   std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps
+  /// t(k-1) < t <= t(k), in order; empty without event pixels.
+  std::vector<Event> events;
   FrameTruth truth;
   std::vector<ObjectTruth> objects;  ///< objects with at least one visible pixel, by id
 };
@@ -92,8 +95,9 @@ class Simulation {
   /// \throws PhysicsError
   std::optional<Observation> next();
 
-  /// Skips the next frame without rendering, in a hundredth of the time; later frames are the same
-  /// as without the skip. \throws PhysicsError
+  /// Skips the next frame without rendering, in a hundredth of the time; with event pixels, which
+  /// remember what they saw, it renders. Later frames are the same as without the skip.
+  /// \throws PhysicsError
   void skip();
 
  private:

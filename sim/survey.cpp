@@ -82,7 +82,9 @@ void note_inside(const World& world, double t_s, std::set<std::string>& known,
 Survey survey(const scenario::Scenario& scenario, int looks,
               const std::function<void(const Observation&)>& on_look,
               const std::function<void(int)>& on_frame) {
-  Observer observer(require_scene(scenario), WrongStart::told);
+  scenario::Scenario without_events = require_scene(scenario);  // a preview shows none
+  without_events.events.reset();
+  Observer observer(without_events, WrongStart::told);
   const World& world = observer.world();
   Survey s;
   s.footprints = footprints(world);

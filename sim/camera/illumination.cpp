@@ -79,6 +79,10 @@ cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
 }
 
 void Illumination::light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const {
+  if (!depends_on_depth()) {
+    for (cv::Vec3f& pixel : picture) pixel *= ambient_;
+    return;
+  }
   const cv::Mat1f cosine = lamps_times_m2_.empty() ? cv::Mat1f() : facing(depth_m);
   cv::Mat1f lit(picture.size());
   cv::Mat1f clear(picture.size());  // transmittance of the air

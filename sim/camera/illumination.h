@@ -25,7 +25,11 @@ class Illumination {
  public:
   Illumination(const scenario::Image& image, const Optics& camera);
 
-  /// \param picture in linear light. \param depth_m along the optical axis; +inf for sky.
+  /// Whether the light of a surface depends on its depth.
+  bool depends_on_depth() const { return !lamps_times_m2_.empty() || extinction_per_m_ > 0; }
+
+  /// \param picture in linear light. \param depth_m along the optical axis; +inf for sky. Not read
+  ///   unless `depends_on_depth`.
   void light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const;
 
   /// Lamp light, in daylights, on a surface that faces the lamps `distance_m` from pixel (x, y).

@@ -41,6 +41,21 @@ Photographer::Photographer(const scenario::Image& image, const Optics& camera, d
     rain_.emplace(*image.rain, image.exposure_s, camera.lens().pinhole(), scenario_seed);
 }
 
+void Photographer::pass_lens(cv::Mat3f& light) const {
+  if (blur_px_ > 0) cv::GaussianBlur(light, light, {}, blur_px_);
+  if (!falloff_.empty()) cv::multiply(light, falloff_, light);
+}
+
+cv::Mat1f Photographer::light(const cv::Mat3b& picture, const cv::Mat1f& depth_m) const {
+  cv::Mat3f light = to_linear(picture);
+  light += cv::Scalar::all(kReflectance);
+  illumination_.light(light, depth_m);
+  pass_lens(light);
+  cv::Mat1f luminance;
+  cv::transform(light, luminance, cv::Matx13f(0.0722F, 0.7152F, 0.2126F));
+  return luminance;
+}
+
 void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {
   cv::Mat3f light = to_linear(picture);
   illumination_.light(light, depth_m);
@@ -48,8 +63,7 @@ void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) 
     rain_->add_streaks(light, depth_m, illumination_, k);
     rain_->look_through_drops(light, k / rate_hz_);
   }
-  if (blur_px_ > 0) cv::GaussianBlur(light, light, {}, blur_px_);
-  if (!falloff_.empty()) cv::multiply(light, falloff_, light);
+  pass_lens(light);
   sensor_.expose(light, k);
   to_codes(light, picture);
   if (jpeg_quality_) {

@@ -26,7 +26,17 @@ class Photographer {
   /// frames in order of time are fastest.
   void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
 
+  /// The light that a rendered image gives behind the lens, without rain: luminance by the weights
+  /// of Rec. 709, in daylights. `kReflectance` is added to the reflectance of all surfaces, as ESIM
+  /// does, so that the steps of 8 bits in dark surfaces are no large contrasts.
+  /// \param depth_m not read unless `depends_on_depth`.
+  cv::Mat1f light(const cv::Mat3b& picture, const cv::Mat1f& depth_m) const;
+  bool depends_on_depth() const { return illumination_.depends_on_depth(); }
+
  private:
+  static constexpr float kReflectance = 1e-3F;
+  void pass_lens(cv::Mat3f& light) const;
+
   double blur_px_;
   std::optional<int> jpeg_quality_;
   double rate_hz_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "sim/events/sampling.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -21,15 +23,13 @@ Passage::Passage(World& world, const scenario::Scenario& scenario)
     : world_(world),
       rate_hz_(scenario.camera.rate_hz),
       told_later_ns_(std::llround(1e9 * scenario.camera.told.time_offset_error_s)),
-      shutter_(scenario.camera) {
+      shutter_(scenario.camera),
+      has_events_(scenario.events.has_value()) {
   pass_frame();
 }
 
 void Passage::pass_frame() {
   const std::int64_t frame_ns = event_time_ns(index_, rate_hz_);
-  const auto advance_to = [&](std::int64_t t_ns) {
-    world_.advance_to(t_ns, readings_.imu, readings_.odometry, &readings_.imu_truth);
-  };
   const auto reach_frame = [&] {
     advance_to(frame_ns);
     frame_.now = world_.snapshot();
@@ -50,6 +50,27 @@ void Passage::pass_frame() {
     frame_.stages.push_back(t_ns >= 0 ? world_.stage() : world_.stage_before(t_ns));
     frame_.snapshots.push_back(world_.snapshot_of(frame_.stages.back()));
   }
+  take_until(frame_ns, early_instants_, frame_.event_instants);
+}
+
+/// Instant 0 is of time 0; then there are `kEventCells` from each frame to the next.
+std::int64_t Passage::event_instant_ns() const {
+  if (event_instants_ == 0) return 0;
+  const std::int64_t frame = (event_instants_ - 1) / kEventCells;
+  const std::int64_t cells = (event_instants_ - 1) % kEventCells + 1;
+  const std::int64_t from_ns = event_time_ns(frame, rate_hz_);
+  return from_ns + (event_time_ns(frame + 1, rate_hz_) - from_ns) * cells / kEventCells;
+}
+
+void Passage::advance_to(std::int64_t t_ns) {
+  const auto reach = [&](std::int64_t at_ns) {
+    world_.advance_to(at_ns, readings_.imu, readings_.odometry, &readings_.imu_truth);
+  };
+  for (; has_events_ && event_instant_ns() <= t_ns; ++event_instants_) {
+    reach(event_instant_ns());
+    early_instants_.push_back({event_instant_ns(), world_.stage(), world_.snapshot()});
+  }
+  reach(t_ns);
 }
 
 void Passage::advance(Observation& frame) {

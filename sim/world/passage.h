@@ -13,6 +13,13 @@
 
 namespace lcs::sim {
 
+/// The world at an instant at which event pixels may see it.
+struct EventInstant {
+  std::int64_t t_ns = 0;
+  Stage stage;
+  Snapshot snapshot;
+};
+
 /// The world during a frame.
 struct FrameState {
   /// \name At the time of the frame.
@@ -28,9 +35,13 @@ struct FrameState {
   std::vector<Snapshot> snapshots;
   std::vector<Stage> stages;
   ///@}
+  /// After the frame before, up to the time of this one: `kEventCells`; of the first frame the one
+  /// of time 0. Empty without event pixels.
+  std::vector<EventInstant> event_instants;
 };
 
-/// The instants of a shutter are events of the world, so that the steps of the physics end there.
+/// The instants of a shutter and of event pixels are events of the world, so that the steps of the
+/// physics end there.
 class Passage {
  public:
   /// \param world at t = 0; must outlive the passage. Passes the first frame.
@@ -49,6 +60,8 @@ class Passage {
 
  private:
   void pass_frame();
+  void advance_to(std::int64_t t_ns);
+  std::int64_t event_instant_ns() const;
 
   World& world_;
   double rate_hz_;
@@ -57,6 +70,9 @@ class Passage {
   int index_ = 0;
   FrameState frame_;
   Observation readings_;  ///< those that no frame has got yet
+  bool has_events_;
+  std::int64_t event_instants_ = 0;           ///< number of those passed
+  std::vector<EventInstant> early_instants_;  ///< later than the next frame
 };
 
 }  // namespace lcs::sim

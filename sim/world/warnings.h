@@ -26,6 +26,7 @@ enum class Warning : std::uint8_t {
   undrawn_parts,
   joints_frozen,
   coarse_shutter,
+  coarse_events,
 };
 
 struct WarningText {
@@ -34,7 +35,7 @@ struct WarningText {
 };
 
 /// In the order of `Warning`.
-inline constexpr std::array<WarningText, 14> kWarnings{{
+inline constexpr std::array<WarningText, 15> kWarnings{{
     {"rover_below_ground", "give what it drives on contacts, or change its start or its path"},
     {"rover_tipped", "make it slower, or the ground smoother"},
     {"rover_collisions", "change its start or its path, or what stands there"},
@@ -50,8 +51,9 @@ inline constexpr std::array<WarningText, 14> kWarnings{{
     {"undrawn_parts", "the truth is that of geoms; give the body geoms for what is to be seen"},
     {"joints_frozen", "its trajectory moves it as one rigid body, whose limbs do not step"},
     {"coarse_shutter", "rows show steps; shorten the shutter's times, or slow the motion"},
+    {"coarse_events", "events come in bursts; raise camera.rate, or slow the motion"},
 }};
-static_assert(kWarnings.size() == static_cast<std::size_t>(Warning::coarse_shutter) + 1);
+static_assert(kWarnings.size() == static_cast<std::size_t>(Warning::coarse_events) + 1);
 
 constexpr const WarningText& text_of(Warning warning) {
   return kWarnings[static_cast<std::size_t>(warning)];

@@ -155,5 +155,48 @@ TEST(Timed, ADetectorsTimeIsThatOfItsThreadAndLeavesOutWhatItWaits) {
   EXPECT_LT(cpu_ms, wall_ms - 10) << "sleeping takes no time of a processor";
 }
 
+/// Corners of events are near FAST's, which see the same outlines, and their truth is that of the
+/// surfaces at their places.
+TEST(CornersOfEvents, AreOnTheOutlinesThatThePicturesShow) {
+  const std::vector<std::string> sets{"frames=4", "events={}", "corners.from=events"};
+  const scenario::Scenario scenario =
+      scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = sets, .seed = {}});
+  const auto run_once = [&] {
+    sim::Simulation simulation(scenario);
+    Alarmist detector;
+    detector.want_signatures();
+    Recording recording = begin_recording(scenario, simulation);
+    run(scenario, simulation, detector, recording,
+        [&](const FrameRecord& frame, const cv::Mat3b& image) {
+          if (frame.index == 0) {
+            EXPECT_TRUE(frame.corners_px.empty());
+            return;
+          }
+          cv::Mat1b grey, edges;
+          cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+          cv::Canny(grey, edges, 30, 60);
+          cv::dilate(edges, edges, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}));
+          int on_edges = 0, moving = 0;
+          for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+            const cv::Point px(cvRound(frame.corners_px[i].x()), cvRound(frame.corners_px[i].y()));
+            on_edges += edges(px) != 0;
+            moving += frame.corner_truth[i].label == sim::Label::rebel;
+          }
+          const auto all = static_cast<double>(frame.corners_px.size());
+          EXPECT_GT(all, 20);
+          EXPECT_GT(on_edges, 0.9 * all);
+          EXPECT_GT(moving, 0);
+          EXPECT_LT(moving, all);
+          EXPECT_EQ(frame.signatures.size(), frame.corners_px.size());
+        });
+    return recording;
+  };
+  const Recording first = run_once(), second = run_once();
+  for (std::size_t k = 0; k < first.frames.size(); ++k) {
+    EXPECT_EQ(first.frames[k].corners_px, second.frames[k].corners_px);
+    EXPECT_EQ(first.frames[k].signatures, second.frames[k].signatures);
+  }
+}
+
 }  // namespace
 }  // namespace lcs::bench

@@ -53,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
         added(
             "UnknownFar", "weather: rain\n",
             "4: unknown key 'weather'; known are purpose, groups, scene, recording, origin, seed, "
-            "ego, camera, cameras, filter_camera, frames, duration, imu, odometry, truth, image, "
+            "ego, camera, cameras, filter_camera, frames, duration, imu, odometry, events, truth, "
+            "image, "
             "ground, actors, "
             "ego_motion, "
             "corners, filter, criteria and sweep"),
@@ -70,6 +71,12 @@ INSTANTIATE_TEST_SUITE_P(
               "4: key 'rate' is given twice, first in line 4; remove one"),
         added("OriginWithoutSeed", "origin:\n  family: room\n",
               "4: origin needs 'seed'; add it (scenarios/README.md shows how)"),
+        added("CornersOfNoEvents", "corners: {from: events}\n",
+              "4: corners.from is 'events', and the camera has no event pixels; add 'events: {}'"),
+        added("EventsInRain", "events: {}\nimage: {rain: {rate: 5}}\n",
+              "4: events see no rain, and image.rain is given; remove one of the two"),
+        added("ThresholdOfEvents", "events: {}\ncorners: {from: events, threshold: 20}\n",
+              "5: both corners.from and corners.threshold are given; keep one of them"),
         added("NoName", "? [a, b]\n: 5\n", "4: a key is a list; give a name"),
         added("NoValue", "seed:\n", "4: seed has no value; give one or remove the key"),
         added("NoSection", "odometry:\n", "4: odometry has no value; give one or remove the key"),

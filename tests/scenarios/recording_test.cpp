@@ -135,7 +135,8 @@ TEST_F(RecordingKeys, ThatAreWrongAreRefusedAtTheirLine) {
        "test.yaml:3: recording.every is '0'; give a whole number from 1 to 10000"},
       {more + "format: rosbag\n",
        "test.yaml:3: recording.format is 'rosbag'; give euroc, kitti, kitti_odometry, "
-       "kitti_tracking, kitti_360, robotcar, tum_rgbd, listed, mot, bag, video or pictures"},
+       "kitti_tracking, kitti_360, robotcar, tum_rgbd, rpg_events, listed, mot, bag, video or "
+       "pictures"},
       {more + "distortion: [0.1, 0, 0, 0]\n",
        "test.yaml:3: recording.distortion is a list of 4; give a list of 5, as in [0, 0, 0, 0, 0]"},
       {more + "distortion: {fisheye: [0, 0, 0, 0]}\n",

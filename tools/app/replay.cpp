@@ -82,11 +82,12 @@ Value document_of(const ReplayRequest& request) {
   if (!request.ego_motion.empty()) {
     put(root, "ego_motion", scalar("--ego-motion", request.ego_motion));
   }
+  Value corners(Value::Kind::map, {"lcs replay", 0});
+  if (!request.corners.empty()) put(corners, "from", scalar("--corners", request.corners));
   if (!request.fast_threshold.empty()) {
-    Value corners(Value::Kind::map, {"--fast-threshold", 0});
     put(corners, "threshold", scalar("--fast-threshold", request.fast_threshold));
-    put(root, "corners", std::move(corners));
   }
+  if (!corners.entries.empty()) put(root, "corners", std::move(corners));
   Value filter = filter_of(request);
   if (!filter.entries.empty()) put(root, "filter", std::move(filter));
   return root;
@@ -131,6 +132,7 @@ std::vector<std::string> arguments_of(const ReplayRequest& request) {
     }
   }
   line.add("--ego-motion", request.ego_motion);
+  line.add("--corners", request.corners);
   line.add("--fast-threshold", request.fast_threshold);
   line.add("--detector", request.detector.name);
   line.add(arguments_of(request.detector));

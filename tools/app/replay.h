@@ -19,6 +19,7 @@ struct ReplayRequest {
   std::string path;                              ///< folder or video of the recording
   std::map<std::string, std::string> recording;  ///< keys and values of a scenario's `recording`
   std::string ego_motion;                        ///< imu or truth; "": the recording's default
+  std::string corners;                           ///< their source; "": pictures
   std::string fast_threshold;                    ///< "": the recording's default
   std::string preset;                            ///< "": the recording's default
   std::vector<std::string> sets;                 ///< filter settings, "key=value"

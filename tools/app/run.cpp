@@ -67,7 +67,7 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
   return {.camera = bench::intrinsics(playback.camera()),
           .recording = playback.begin(),
           .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
-            return bench::run(playback, FastDetector(scenario.fast_threshold), watchers);
+            return bench::run(playback, bench::CornerFinder(scenario), watchers);
           }};
 }
 

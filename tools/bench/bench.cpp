@@ -48,7 +48,21 @@ void SimulatedFrames::label(FrameRecord& frame) {
   rectifier_.rectify(truth.depth_m);
 }
 
-std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
+namespace {
+
+cv::Mat1b straightened(const FrameSource& source, const cv::Mat1b& surface) {
+  std::vector<Eigen::Vector2f> none;
+  cv::Mat3b picture;
+  cv::cvtColor(surface, picture, cv::COLOR_GRAY2BGR);
+  if (!source.straighten(none, picture)) return surface;
+  cv::Mat1b straight;
+  cv::extractChannel(picture, straight, 0);
+  return straight;
+}
+
+}  // namespace
+
+std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
                              bool are_signatures_wanted) {
   SeenFrame seen;
   FrameRecord& frame = seen.record;
@@ -57,11 +71,13 @@ std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
   FrameTimes& times = frame.times.emplace();
   if (!source.next(frame, image)) return std::nullopt;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  const int threshold = detector.threshold(grey);
-  frame.corners_px = timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
+  frame.corners_px = timed(times.detect_ms, [&] { return corners.find(grey, source.events()); });
   if (source.straighten(frame.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   if (are_signatures_wanted) {
-    frame.signatures = timed(times.describe_ms, [&] { return describe(grey, frame.corners_px); });
+    frame.signatures = timed(times.describe_ms, [&] {
+      const std::optional<cv::Mat1b> surface = corners.surface();
+      return describe(surface ? straightened(source, *surface) : grey, frame.corners_px);
+    });
   }
   source.label(frame);
   return seen;
@@ -105,13 +121,13 @@ void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, Fram
   frame.masks = detector.masks();
 }
 
-std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
+std::vector<Diagnostics> run(FrameSource& source, CornerFinder corners,
                              std::span<const Watcher> watchers) {
   const bool are_signatures_wanted =
       std::any_of(watchers.begin(), watchers.end(),
                   [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
 
-  while (const std::optional<SeenFrame> seen = see(source, detector, are_signatures_wanted)) {
+  while (const std::optional<SeenFrame> seen = see(source, corners, are_signatures_wanted)) {
     for (const Watcher& watcher : watchers) {
       FrameRecord& frame = watcher.recording.frames.emplace_back(seen->record);
       if (!watcher.detector.wants_signatures()) {  // as in a run of its own
@@ -135,7 +151,7 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
 std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
                              std::span<const Watcher> watchers) {
   SimulatedFrames frames(scenario, simulation);
-  return run(frames, FastDetector(scenario.fast_threshold), watchers);
+  return run(frames, CornerFinder(scenario), watchers);
 }
 
 Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Detector& detector,

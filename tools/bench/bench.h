@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
 #include "sim/camera/rectifier.h"
 #include "sim/simulation.h"
+#include "tools/bench/corner_finder.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/recording/recording.h"
@@ -30,6 +30,9 @@ class FrameSource {
   /// The next frame: number, time and motions. Adds the time spent to the frame's times.
   /// \param image set to the camera's image, BGR. \return false after the last frame.
   virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
+
+  /// The events since the frame before the last one, up to the last one.
+  virtual std::span<const sim::Event> events() const { return {}; }
 
   /// Undistorts corners and picture: from the recording camera to the pinhole camera of the
   /// detectors. Drops corners that are not scored.
@@ -52,6 +55,7 @@ class SimulatedFrames : public FrameSource {
   bool next(FrameRecord& frame, cv::Mat3b& image) override;
   bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const override;
   void label(FrameRecord& frame) override;
+  std::span<const sim::Event> events() const override { return observation_->events; }
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
   Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
 
@@ -76,7 +80,7 @@ struct SeenFrame {
 
 /// The next frame with corners, their truth, and signatures on request.
 /// \return absent after the last frame. \throws the exceptions of the source.
-std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
+std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
                              bool are_signatures_wanted);
 
 /// Stores a detector's result in a frame.
@@ -102,7 +106,7 @@ struct Watcher {
 /// Processes all frames. Each watcher gets the same frames as it would alone.
 /// \return for each watcher, faults in the sensors' readings and in its detector's input.
 /// \throws the exceptions of source, detectors and sinks.
-std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
+std::vector<Diagnostics> run(FrameSource& source, CornerFinder corners,
                              std::span<const Watcher> watchers);
 
 /// Runs the simulation to its end. \param scenario of the simulation.

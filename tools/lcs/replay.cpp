@@ -139,6 +139,10 @@ Command add_replay_command(CLI::App& app) {
                   "imu: by dead reckoning; truth: by the recording's own truth")
       ->type_name("SOURCE");
   command
+      .add_option("--corners", options.request.corners,
+                  "pictures: FAST's; events: those of an event camera. If not given, pictures")
+      ->type_name("SOURCE");
+  command
       .add_option("--fast-threshold", options.request.fast_threshold,
                   "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the "
                   "compression of each picture. If not given, auto or the recording's")

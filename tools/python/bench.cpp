@@ -429,10 +429,10 @@ void bind_runs(py::module_& module) {
   module.def(
       "replay",
       [](const fs::path& path, const std::string& out, const Settings& recording,
-         const std::string& ego_motion, const std::string& fast_threshold,
-         const std::string& preset, const Settings& set, const std::string& detector,
-         const std::string& command, double timeout, const Texts& beside, bool video, bool events,
-         const ProgressFunction& progress) {
+         const std::string& ego_motion, const std::string& corners,
+         const std::string& fast_threshold, const std::string& preset, const Settings& set,
+         const std::string& detector, const std::string& command, double timeout,
+         const Texts& beside, bool video, bool events, const ProgressFunction& progress) {
         app::ReplayRequest request;
         request.path = path.string();
         for (const std::string& assignment : assignments_of(recording)) {
@@ -440,6 +440,7 @@ void bind_runs(py::module_& module) {
           request.recording[key] = value;
         }
         request.ego_motion = ego_motion;
+        request.corners = corners;
         request.fast_threshold = fast_threshold;
         request.preset = preset;
         request.sets = assignments_of(set);
@@ -453,16 +454,17 @@ void bind_runs(py::module_& module) {
         return dict_of(made, caller);
       },
       "path"_a, py::kw_only(), "out"_a = "", "recording"_a = py::none(), "ego_motion"_a = "",
-      "fast_threshold"_a = "", "preset"_a = "", "set"_a = py::none(), "detector"_a = "",
-      "detector_command"_a = "", "detector_timeout"_a = kTimeout, "beside"_a = Texts{},
-      "video"_a = false, "events"_a = false, "progress"_a = py::none(),
+      "corners"_a = "", "fast_threshold"_a = "", "preset"_a = "", "set"_a = py::none(),
+      "detector"_a = "", "detector_command"_a = "", "detector_timeout"_a = kTimeout,
+      "beside"_a = Texts{}, "video"_a = false, "events"_a = false, "progress"_a = py::none(),
       "Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs "
       "replay.\n\n"
       "path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {\"focal\": "
       "600,\n"
       "\"topics.imu\": \"/imu\"}; lists as text, \"319.5,239.5\". ego_motion: imu or truth. "
-      "fast_threshold:\n"
-      "contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.");
+      "corners:\n"
+      "pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. "
+      "Returns as run.");
   module.def(
       "generate",
       [](const OptionalPaths& paths, const std::string& out, const std::string& worlds, int count,

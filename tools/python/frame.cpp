@@ -373,7 +373,7 @@ void bind_truth(py::module_& module) {
 }  // namespace
 
 Simulation::Simulation(std::shared_ptr<const Scenario> scenario)
-    : run_(std::make_shared<Run>()), detector_(scenario->full.fast_threshold) {
+    : run_(std::make_shared<Run>()), corners_(scenario->full) {
   const py::gil_scoped_release others_may_run;
   require_no_fork();
   const OneThread one_thread;
@@ -424,7 +424,7 @@ std::shared_ptr<Frame> Simulation::next() {
   {
     const py::gil_scoped_release others_may_run;
     const OneThread one_thread;
-    std::optional<bench::SeenFrame> seen = bench::see(*source_, detector_, true);
+    std::optional<bench::SeenFrame> seen = bench::see(*source_, corners_, true);
     is_over = !seen;
     if (seen) frame->seen = std::move(*seen);
   }

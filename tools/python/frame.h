@@ -53,7 +53,7 @@ class Simulation {
   void require_own_thread() const;
 
   std::shared_ptr<Run> run_;
-  FastDetector detector_;
+  bench::CornerFinder corners_;
   std::unique_ptr<sim::Simulation> simulation_;  ///< null for recorded frames
   std::unique_ptr<bench::FrameSource> source_;   ///< null after the last frame
   bench::SimulatedFrames* simulated_ = nullptr;  ///< `source_`, if it simulates

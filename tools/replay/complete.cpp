@@ -148,13 +148,13 @@ void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings
 
 /// Refuses readings whose axes are not the vehicle's, by where the accelerometer says up is.
 void require_vehicle_axes(const std::vector<sim::ImuSample>& readings,
-                          const scenario::Recorded& asked) {
+                          const std::filesystem::path& path) {
   constexpr double kUpright = 0.7;  // cosine of the angle to z, for any slope
   Vector3d force = Vector3d::Zero();
   for (const sim::ImuSample& sample : readings) force += sample.accel_mps2;
   const Vector3d up = force.normalized();
   if (up.z() > kUpright) return;
-  const std::string file = asked.imu->string();
+  const std::string file = path.string();
   if (up.z() < -kUpright) {
     throw input::Error({file, 0},
                        "its accelerations point down, along -z, and those of an "
@@ -170,7 +170,6 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings,
           up.x(), up.y(), up.z()));
 }
 
-/// The IMU's axes are those of the vehicle, which starts upright; or any, with a calibration.
 void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   SensorReadings readings;
   const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
@@ -181,34 +180,7 @@ void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
         *asked.odometry, {asked.time_unit, {kSlowest_hz, kFastest_hz, {}}, kNanosecond_ns},
         recorded.tally);
   }
-  recorded.settings.odometry.enabled = !readings.odometry.empty();
-  take_imu_noise(asked, recorded);
-  take_time_offset(asked, recorded);
-  // Pictures without a clock begin at the first reading.
-  const std::int64_t first_ns = readings.imu.front().t_ns;
-  const std::int64_t zero_ns = recorded.has_own_clock ? first_ns : 0;
-  for (RecordedFrame& frame : recorded.frames) frame.t_ns += zero_ns;
-  const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
-  keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
-              "pictures are outside of the IMU's time and are left out", recorded);
-  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
-  begin_at(start_ns, readings);
-  sim::Calibration calibration;
-  const auto T_BC = asked.calibration ? camera_on_body(asked) : std::nullopt;
-  calibration.T_BC.R =
-      T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
-  if (T_BC && !asked.mount_rpy_rad) {
-    calibration.T_BC.p = T_BC->p;
-    calibration.T_WB_start.R =
-        sim::least_rotation(readings.imu.front().accel_mps2, Vector3d::UnitZ()).toRotationMatrix();
-  } else {
-    require_vehicle_axes(readings.imu, asked);
-  }
-  calibration.v_WB_start_mps =
-      asked.speed_mps.value_or(0) * (calibration.T_WB_start.R * calibration.T_BC.R.col(2)).eval();
-  calibrate_at_rest(asked, readings, calibration, recorded.tally);
-  recorded.motion =
-      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
+  move_by_readings(asked, *asked.imu, std::move(readings), recorded);
 }
 
 /// \param is_told whether the layout told already which of its motion's inputs it lacks.
@@ -339,6 +311,57 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   keep_within(motion->first_ns(), motion->last_ns(),
               "pictures are outside of the poses' time and are left out", recorded);
   recorded.motion = std::move(motion);
+}
+
+void move_by_timed_poses(const scenario::Recorded& asked, const std::filesystem::path& file,
+                         const Vector3d& up_W, Recorded& recorded) {
+  const PosesFile file_poses = read_poses(file, asked.time_unit, recorded.tally);
+  if (!file_poses.timed) {
+    throw input::Error({file.string(), 0},
+                       "its poses have no times; give them as TUM has them, or poses of your own");
+  }
+  std::vector<PosesMotion::CameraPose> poses;
+  for (const auto& line : file_poses.lines) {
+    if (line) poses.push_back({line->t_ns.value(), line->T_WC});
+  }
+  sort_by_time(poses, "poses", file.string(), recorded.tally);
+  const auto up = up_of_world(asked, poses.front().T_WC, up_W);
+  auto motion = std::make_unique<PosesMotion>(std::move(poses), up);
+  keep_within(motion->first_ns(), motion->last_ns(),
+              "pictures are outside of the poses' time and are left out", recorded);
+  recorded.motion = std::move(motion);
+}
+
+void move_by_readings(const scenario::Recorded& asked, const std::filesystem::path& file,
+                      SensorReadings readings, Recorded& recorded) {
+  recorded.settings.odometry.enabled = !readings.odometry.empty();
+  take_imu_noise(asked, recorded);
+  take_time_offset(asked, recorded);
+  // Pictures without a clock begin at the first reading.
+  const std::int64_t first_ns = readings.imu.front().t_ns;
+  const std::int64_t zero_ns = recorded.has_own_clock ? first_ns : 0;
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns += zero_ns;
+  const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
+  keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
+              "pictures are outside of the IMU's time and are left out", recorded);
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
+  begin_at(start_ns, readings);
+  sim::Calibration calibration;
+  const auto T_BC = asked.calibration ? camera_on_body(asked) : std::nullopt;
+  calibration.T_BC.R =
+      T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
+  if (T_BC && !asked.mount_rpy_rad) {
+    calibration.T_BC.p = T_BC->p;
+    calibration.T_WB_start.R =
+        sim::least_rotation(readings.imu.front().accel_mps2, Vector3d::UnitZ()).toRotationMatrix();
+  } else {
+    require_vehicle_axes(readings.imu, file);
+  }
+  calibration.v_WB_start_mps =
+      asked.speed_mps.value_or(0) * (calibration.T_WB_start.R * calibration.T_BC.R.col(2)).eval();
+  calibrate_at_rest(asked, readings, calibration, recorded.tally);
+  recorded.motion =
+      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }
 
 void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded) {

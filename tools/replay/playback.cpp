@@ -36,8 +36,27 @@ Playback::Playback(const scenario::Scenario& asked)
   }
   take_settings();
   look_at_first_picture();
+  require_events();
   read_mask();
   read_labels();
+}
+
+void Playback::require_events() const {
+  const scenario::Recorded& asked = scenario_.recording.value();
+  if (scenario_.corner_source == scenario::CornerSource::events && recorded_.events.empty()) {
+    throw input::Error(asked.source,
+                       fmt::format("corners.from is 'events', and {} has none; remove the key, or "
+                                   "give a recording of an event camera",
+                                   asked.path.string()));
+  }
+  for (const sim::Event& event : recorded_.events) {
+    if (event.x < camera().width_px && event.y < camera().height_px) continue;
+    throw input::Error(
+        asked.source,
+        fmt::format("an event of {} is at ({}, {}), and its pictures have {} x {} "
+                    "pixels; give both of one camera",
+                    asked.path.string(), event.x, event.y, camera().width_px, camera().height_px));
+  }
 }
 
 void Playback::read_labels() {
@@ -150,6 +169,8 @@ bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
     std::optional<cv::Mat3b> picture = pictures_.read(recorded);
     if (!picture) continue;  // its time still passes
     image = *picture;
+    events_ = std::span(recorded_.events).subspan(events_end_, recorded.events - events_end_);
+    events_end_ = recorded.events;
     frame.index = index_++;
     frame.t_ns = recorded.t_ns;
     frame.motion = recorded_.motion->at(recorded.t_ns);

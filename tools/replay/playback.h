@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ class Playback : public bench::FrameSource {
   bench::Recording begin() const;
 
   bool next(bench::FrameRecord& frame, cv::Mat3b& image) override;
+  std::span<const sim::Event> events() const override { return events_; }
   bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const override;
   void label(bench::FrameRecord& frame) override;
   Diagnostics diagnostics() const override;
@@ -45,6 +47,7 @@ class Playback : public bench::FrameSource {
   void look_at_first_picture();
   void read_mask();
   void read_labels();
+  void require_events() const;
   void label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame);
 
   scenario::Scenario scenario_;
@@ -58,7 +61,9 @@ class Playback : public bench::FrameSource {
   cv::Mat1b mask_;                ///< empty, or non-zero at ignored pixels
   std::size_t next_ = 0;          ///< of the recorded frames
   int index_ = 0;                 ///< of the next frame
-  bool grounded_ = false;         ///< the last frame has a ground
+  std::size_t events_end_ = 0;    ///< of those that frames had so far
+  std::span<const sim::Event> events_;
+  bool grounded_ = false;  ///< the last frame has a ground
 };
 
 }  // namespace lcs::replay

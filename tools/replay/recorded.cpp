@@ -47,6 +47,8 @@ const std::vector<Layout>& layouts() {
       {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs focal", is_robotcar,
        read_robotcar},
       {"tum_rgbd", "rgb.txt, groundtruth.txt (TUM RGB-D); needs focal", is_tum_rgbd, read_tum_rgbd},
+      {"rpg_events", "events.txt, images.txt, calib.txt, groundtruth.txt (RPG's event camera)",
+       is_rpg_events, read_rpg_events},
       {"listed", "times.txt or images.txt beside pictures (TUM-mono, 4Seasons, UZH-FPV)", is_listed,
        read_listed},
       {"mot", "seqinfo.ini, img1 (MOTChallenge); needs a motion and focal", is_mot, read_mot},

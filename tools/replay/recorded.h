@@ -12,6 +12,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/camera/optics.h"
+#include "sim/events/event.h"
 #include "tools/recording/recording.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/picture_reader.h"
@@ -44,6 +45,7 @@ struct RecordedFrame {
   std::int64_t t_ns = 0;
   std::filesystem::path picture;  ///< empty: in the video
   std::size_t number = 0;         ///< index among all pictures of the recording, from 0
+  std::size_t events = 0;         ///< number of the recording's events up to its time
 
   std::string name() const;  ///< for people: the file's, or "picture 7"
 };
@@ -51,14 +53,15 @@ struct RecordedFrame {
 struct Recorded {
   /// At least one. If `timed` is false, they are in order and their times are unknown.
   std::vector<RecordedFrame> frames;
-  bool timed = true;              ///< sorted by time, without duplicate times
-  bool has_own_clock = false;     ///< times count from the first picture: sensors begin with it
-  bool took_time_offset = false;  ///< `take_time_offset` was called
-  std::optional<double> fps;      ///< of an untimed recording, if the layout has it
-  std::filesystem::path video;    ///< contains the pictures; empty: they are files
-  std::optional<Lens> lens;       ///< absent: the layout has no calibration
-  std::optional<sim::Pose> T_BC;  ///< of the camera on the body, if the layout states it
-  PictureFormat format;           ///< of the files
+  bool timed = true;               ///< sorted by time, without duplicate times
+  bool has_own_clock = false;      ///< times count from the first picture: sensors begin with it
+  bool took_time_offset = false;   ///< `take_time_offset` was called
+  std::optional<double> fps;       ///< of an untimed recording, if the layout has it
+  std::vector<sim::Event> events;  ///< by time, with the clock of the layout
+  std::filesystem::path video;     ///< contains the pictures; empty: they are files
+  std::optional<Lens> lens;        ///< absent: the layout has no calibration
+  std::optional<sim::Pose> T_BC;   ///< of the camera on the body, if the layout states it
+  PictureFormat format;            ///< of the files
   /// Detection, filter, noise. Defaults apply where the recording has no setting, except that each
   /// picture determines the corner threshold.
   scenario::Scenario settings = [] {
@@ -113,6 +116,8 @@ bool is_robotcar(const std::filesystem::path& folder);
 Recorded read_robotcar(const scenario::Recorded& asked, bool exact_motion);
 bool is_tum_rgbd(const std::filesystem::path& folder);
 Recorded read_tum_rgbd(const scenario::Recorded& asked, bool exact_motion);
+bool is_rpg_events(const std::filesystem::path& folder);
+Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion);
 bool is_mot(const std::filesystem::path& folder);
 Recorded read_mot(const scenario::Recorded& asked, bool exact_motion);
 bool is_kitti_tracking(const std::filesystem::path& folder);
@@ -159,6 +164,17 @@ inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
 /// Sets the motion from `asked.poses`. \param times_known of the pictures.
 /// \throws input::Error for unreadable poses, and for those of a body without the camera's place.
 void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded);
+
+/// Sets the motion from a layout's file of poses with their times. \param up_W of its world frame.
+/// \throws input::Error for unreadable poses, and for those without times.
+void move_by_timed_poses(const scenario::Recorded& asked, const std::filesystem::path& file,
+                         const Eigen::Vector3d& up_W, Recorded& recorded);
+
+/// Sets the motion from readings of an IMU, whose axes are those of the vehicle, which starts
+/// upright; or any, if `asked.calibration` states the camera's place on it.
+/// \param file of the readings, for messages.
+void move_by_readings(const scenario::Recorded& asked, const std::filesystem::path& file,
+                      SensorReadings readings, Recorded& recorded);
 
 /// Sets the motion from a navigation unit's states: sorts them, removes duplicate times, and
 /// removes frames outside their time span. \throws std::runtime_error for fewer than two states.

@@ -1,7 +1,6 @@
 // TUM RGB-D: rgb.txt lists pictures with their times, groundtruth.txt the poses of the colour
 // camera in a world frame with z up. A recording has no calibration.
-#include "tools/replay/in_order.h"
-#include "tools/replay/poses_file.h"
+#include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
 
@@ -12,24 +11,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPictures = "rgb.txt";
 constexpr const char* kTruth = "groundtruth.txt";
-
-void read_motion(const scenario::Recorded& asked, const fs::path& file, Recorded& recorded) {
-  const PosesFile file_poses = read_poses(file, asked.time_unit, recorded.tally);
-  if (!file_poses.timed) {
-    throw input::Error({file.string(), 0},
-                       "its poses have no times; give them as TUM has them, or poses of your own");
-  }
-  std::vector<PosesMotion::CameraPose> poses;
-  for (const auto& line : file_poses.lines) {
-    if (line) poses.push_back({line->t_ns.value(), line->T_WC});
-  }
-  sort_by_time(poses, "poses", file.string(), recorded.tally);
-  const auto up_W = up_of_world(asked, poses.front().T_WC, Eigen::Vector3d(0, 0, 1));
-  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
-  keep_within(motion->first_ns(), motion->last_ns(),
-              "pictures are outside of the poses' time and are left out", recorded);
-  recorded.motion = std::move(motion);
-}
 
 }  // namespace
 
@@ -51,7 +32,7 @@ Recorded read_tum_rgbd(const scenario::Recorded& asked, bool) {
   }
   put_in_order(recorded.frames, list.file, recorded.tally);
   if (!motion_is_asked(asked) && fs::exists(asked.path / kTruth)) {
-    read_motion(asked, asked.path / kTruth, recorded);
+    move_by_timed_poses(asked, asked.path / kTruth, Eigen::Vector3d::UnitZ(), recorded);
   }
   return recorded;
 }

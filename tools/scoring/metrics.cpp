@@ -418,6 +418,9 @@ std::vector<Metric> warning_metrics() {
       {"coarse_shutter",
        "frames that shift by more than 0.5 px between two of their 64 drawings "
        "(sim/camera/shutter.h)"},
+      {"coarse_events",
+       "frames until which the picture shifts by more than 1 px between two of the 128 instants at "
+       "which events are sampled (sim/events/sampling.h)"},
       {"few_corners", "frames with fewer than 10 corners; 0 if not more than half"},
       {"runaway_speed", "frames with a told speed above 70 m/s. Of recordings alone"},
       {"turn_not_told",

@@ -45,6 +45,19 @@ ROS 2 (`--formats mcap`): `rosbag/`, a rosbag2 of MCAP, with standard messages:
 * `/tf`: exact pose of S in W, `world` to `imu`; `/tf_static`: cameras (`cam<i>_optical`) and rover (`base`) in S;
   `/truth/odometry`: exact pose of cam0 in W, and its velocity and body rate in C.
 )";
+constexpr std::string_view kRpg = R"(
+RPG's event-camera dataset (`--formats events`); times in seconds, by the clock of the camera (`imu.txt`: of the IMU):
+
+* `rpg/events.txt`: an event a line, `t x y p`: p is 1 where light has grown, 0 where it has fallen. Pixels are those of the pictures.
+* `rpg/images.txt`, `rpg/images/`: the pictures of `mav0/cam0/data` under other names, in colour; `rpg/calib.txt`: `fx fy cx cy k1 k2 p1 p2 k3`.
+* `rpg/groundtruth.txt`: `t x y z qx qy qz qw`, exact pose of C in W at each frame; `rpg/imu.txt`: `t ax ay az gx gy gz`, in S.
+)";
+constexpr std::string_view kDsec = R"(
+DSEC (`--formats dsec`):
+
+* `dsec/events.h5`: `/events/{t,x,y,p}` as in `rpg/events.txt`; t in microseconds after `/t_offset`; `/ms_to_idx`: the first event of each
+  millisecond. DSEC itself compresses by Blosc, this file by HDF5's own gzip.
+)";
 constexpr std::string_view kMot = R"(
 MOTChallenge (`--formats mot`); frames, ids and pixels count from 1:
 
@@ -109,6 +122,9 @@ const std::vector<Format>& formats() {
        make_kitti_writer, 0.001, 0, false},
       {"mcap", "messages of ROS 2 in a bag of MCAP; needs PyPI's rosbags", kMcap, make_mcap_writer,
        0, 600, false, 1},
+      {"events", "events, pictures and IMU: text of RPG's event-camera dataset", kRpg,
+       make_rpg_writer, 10, 90, false},
+      {"dsec", "events: DSEC's HDF5; needs h5py", kDsec, make_dsec_writer, 1.2, 0, false},
       {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer, 0.002, 0},
       {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer, 0.03, 0},
       {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer, 0.015, 0},

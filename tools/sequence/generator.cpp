@@ -231,6 +231,7 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
       {"renderer", versions.gl_renderer},
   };
   if (std::ranges::count(options.formats, "mcap") > 0) plan["rosbags"] = bag_library();
+  if (std::ranges::count(options.formats, "dsec") > 0) plan["h5py"] = hdf5_library();
   if (scenario.ego.drive == scenario::Drive::own) {
     plan["rover_sha256"] = sha256_of(scenario.ego.drive_file);
   }
@@ -316,13 +317,17 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
   }
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
-    if (document.path() == kBagFile) {
-      const std::filesystem::path folder = std::filesystem::path(kBagFile).parent_path();
+    if (document.path() == kBagFile || document.path().ends_with(kDsecFile)) {
+      const std::filesystem::path folder = std::filesystem::path(document.path()).parent_path();
       std::ranges::move(journal.add_folder(folder,
                                            [&](const std::filesystem::path& out) {
-                                             const auto messages = out.parent_path() / "messages";
-                                             bench::write_file(messages, text);
-                                             write_bag(messages, journal.folder(), out);
+                                             const auto rows = out.parent_path() / "rows";
+                                             bench::write_file(rows, text);
+                                             if (document.path() == kBagFile) {
+                                               write_bag(rows, journal.folder(), out);
+                                             } else {
+                                               write_hdf5(rows, out);
+                                             }
                                            }),
                         std::back_inserter(files));
       continue;

@@ -15,9 +15,7 @@ class KittiWriter : public Writer {
     output.files.push_back({fmt::format("kitti/image_{}/{:06}.png", info_.place, frame.now.index),
                             "", picture_path(frame.stamp_ns, info_.place)});
     if (!info_.is_first()) return;
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
-    output.rows["kitti_times"] =
-        fmt::format("{}.{:09}\n", frame.now.t_ns / kSecond_ns, frame.now.t_ns % kSecond_ns);
+    output.rows["kitti_times"] = seconds(frame.now.t_ns) + "\n";
     const std::array<double, 16> T_WC = matrix_of(frame.now.truth.now.T_WC);
     output.rows["kitti_poses"] = numbers(std::span(T_WC).first(12), " ") + "\n";
   }

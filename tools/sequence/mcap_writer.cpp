@@ -4,13 +4,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
-#include "scenarios/shipped.h"
-#include "tools/input/message.h"
-#include "tools/process/python.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/pose_text.h"
+#include "tools/sequence/script.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -118,23 +115,15 @@ class McapWriter : public Writer {
   SequenceInfo info_;
 };
 
-process::PythonEnd run_script(const std::vector<std::string>& arguments) {
-  process::PythonEnd end =
-      process::run_python(scenario::shipped_folder("tools/sequence") / "write_bag.py", arguments);
-  if (end.is_fine) return end;
-  throw std::runtime_error(end.err.empty() ? "the bag was not written to its end; run it again"
-                                           : input::one_line(end.err));
-}
-
 }  // namespace
 
 std::string bag_library() {
-  return run_script({"--version"}).out;
+  return run_script("write_bag.py", {"--version"});
 }
 
 void write_bag(const std::filesystem::path& messages, const std::filesystem::path& sequence,
                const std::filesystem::path& out) {
-  run_script({messages.string(), sequence.string(), out.string()});
+  run_script("write_bag.py", {messages.string(), sequence.string(), out.string()});
 }
 
 std::unique_ptr<Writer> make_mcap_writer(const SequenceInfo& info) {

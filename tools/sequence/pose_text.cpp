@@ -15,6 +15,17 @@ std::string numbers(std::span<const double> values, const char* separator) {
   return text;
 }
 
+std::string seconds(std::int64_t t_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return fmt::format("{}.{:09}", t_ns / kSecond_ns, t_ns % kSecond_ns);
+}
+
+std::string pose_line(std::int64_t t_ns, const sim::Pose& pose) {
+  const Eigen::Quaterniond q = quaternion_of(pose);
+  return fmt::format("{} {} {} {} {} {} {} {}\n", seconds(t_ns), pose.p.x(), pose.p.y(), pose.p.z(),
+                     q.x(), q.y(), q.z(), q.w());
+}
+
 std::vector<double> four_coefficients(const sim::Lens& lens) {
   std::vector<double> coefficients = lens.coefficients;
   if (coefficients.empty() || (coefficients.size() == 5 && coefficients[4] == 0)) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,9 +17,15 @@ namespace lcs::sequence {
 /// Numbers with a separator between them.
 std::string numbers(std::span<const double> values, const char* separator);
 
+/// Seconds with nine digits after the point. \param t_ns >= 0.
+std::string seconds(std::int64_t t_ns);
+
 /// The coefficients of a distortion as Kalibr has them: four, zeros if there is none. A k3 other
 /// than 0, which Kalibr's radtan lacks, is the fifth.
 std::vector<double> four_coefficients(const sim::Lens& lens);
+
+/// TUM's line, `t x y z qx qy qz qw`, with its end.
+std::string pose_line(std::int64_t t_ns, const sim::Pose& pose);
 
 /// The unit quaternion of a pose's rotation, with w >= 0 so that it is unique.
 Eigen::Quaterniond quaternion_of(const sim::Pose& pose);

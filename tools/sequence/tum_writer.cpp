@@ -1,29 +1,20 @@
 // Trajectories in the format of TUM's RGB-D benchmark: t x y z qx qy qz qw.
-#include <fmt/format.h>
-
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
 namespace {
 
-std::string line_of(std::int64_t ns, const sim::Pose& pose) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  const Eigen::Quaterniond q = quaternion_of(pose);
-  return fmt::format("{}.{:09} {} {} {} {} {} {} {}\n", ns / kSecond_ns, ns % kSecond_ns,
-                     pose.p.x(), pose.p.y(), pose.p.z(), q.x(), q.y(), q.z(), q.w());
-}
-
 class TumWriter : public Writer {
  public:
   explicit TumWriter(const SequenceInfo& info) : has_imu_(info.is_first()) {}
 
   void write(const FrameView& frame, FrameOutput& output) const override {
-    output.rows["tum_camera"] = line_of(frame.stamp_ns, frame.now.truth.now.T_WC);
+    output.rows["tum_camera"] = pose_line(frame.stamp_ns, frame.now.truth.now.T_WC);
     if (!has_imu_) return;
     std::string& imu = output.rows["tum_imu"];
     for (const sim::ImuTruth& state : frame.now.imu_truth)
-      imu += line_of(kEpoch_ns + state.t_ns, state.T_WS);
+      imu += pose_line(kEpoch_ns + state.t_ns, state.T_WS);
   }
   std::vector<Document> documents() const override {
     std::vector<Document> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};

@@ -26,6 +26,8 @@ std::unique_ptr<Writer> make_kalibr_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_kitti_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_mcap_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_rpg_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_dsec_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_mot_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_davis_writer(const SequenceInfo& info);
@@ -43,6 +45,16 @@ std::string bag_library();
 /// \param out new folder: `kBagFile` with its metadata. \throws std::runtime_error
 void write_bag(const std::filesystem::path& messages, const std::filesystem::path& sequence,
                const std::filesystem::path& out);
+///@}
+
+/// \name The HDF5 of `make_dsec_writer`, whose document has text in place of its bytes.
+///@{
+inline constexpr const char* kDsecFile = "dsec/events.h5";
+/// As `bag_library`.
+std::string hdf5_library();
+/// \param rows the document. \param out new folder, which gets the file.
+/// \throws std::runtime_error
+void write_hdf5(const std::filesystem::path& rows, const std::filesystem::path& out);
 ///@}
 
 }  // namespace lcs::sequence

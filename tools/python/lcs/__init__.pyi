@@ -589,13 +589,13 @@ def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.Path
     """
     Joins the folders of the parts of a suite (shard). Returns as suite.
     """
-def replay(path: str | os.PathLike[str], *, out: str = '', recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', fast_threshold: str = '', preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], video: bool = False, events: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def replay(path: str | os.PathLike[str], *, out: str = '', recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', corners: str = '', fast_threshold: str = '', preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], video: bool = False, events: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
     path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {"focal": 600,
-    "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. fast_threshold:
-    contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.
+    "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
+    pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.
     """
 def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, frames: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, detections: str = '', beside: list[str] = [], recorded: str = '', keep: str = 'all', video: bool = False, events: bool = False, report: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """

@@ -1,0 +1,123 @@
+#include "sim/events/event_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+namespace lcs::sim {
+namespace {
+
+/// Share of the shot noise of the dark that a pixel has in daylight.
+constexpr double kShotsInDaylight = 0.25;
+
+}  // namespace
+
+EventSensor::EventSensor(const scenario::Events& events, cv::Size size, std::uint64_t seed)
+    : parameters_(events),
+      refractory_ns_(std::llround(1e9 * events.refractory_s)),
+      shots_(seed, "events.shots"),
+      size_(size) {
+  RandomStream contrasts(seed, "events.contrasts");
+  const auto draw = [&](double mean) {
+    return std::max(kLeastContrast, static_cast<float>(mean + events.spread * contrasts.normal()));
+  };
+  RandomStream phases(seed, "events.leak");
+  pixels_.reserve(static_cast<std::size_t>(size.area()));
+  for (int i = 0; i < size.area(); ++i) {
+    const float on = draw(events.positive), off = draw(events.negative);
+    const float above = events.leak_hz > 0 ? on * static_cast<float>(phases.uniform()) : 0.F;
+    pixels_.push_back({0, above, on, off, 0});
+  }
+}
+
+void EventSensor::see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events) {
+  if (light.size() != size_) throw std::invalid_argument("a picture of another size than events");
+  if (has_seen_ && t_ns <= last_ns_) {
+    throw std::invalid_argument("a picture that is not later than the one before it");
+  }
+  const double dark = parameters_.dark_lx / scenario::Image::kDaylight_lx;
+  cv::add(light, dark, log_);
+  cv::log(log_, log_);
+  if (!has_seen_) {
+    std::transform(log_.begin(), log_.end(), pixels_.begin(), pixels_.begin(),
+                   [](float l, Pixel pixel) {
+                     pixel.seen = l;
+                     return pixel;
+                   });
+    has_seen_ = true;
+    last_ns_ = t_ns;
+    return;
+  }
+  const std::size_t first = events.size();
+  const std::int64_t span_ns = t_ns - last_ns_;
+  const auto leaks = static_cast<float>(parameters_.leak_hz * 1e-9 * static_cast<double>(span_ns));
+  Pixel* pixel = pixels_.data();
+  for (int y = 0; y < size_.height; ++y) {
+    const float* l = log_[y];
+    for (int x = 0; x < size_.width; ++x, ++pixel) {
+      const float rise = l[x] - pixel->seen + leaks * pixel->on;
+      const float above = pixel->above + rise;
+      pixel->seen = l[x];
+      if (above < pixel->on && above > -pixel->off) {
+        pixel->above = above;
+      } else {
+        cross(x, y, rise, last_ns_, span_ns, events);
+      }
+    }
+  }
+  add_shots(light, last_ns_, span_ns, events);
+  std::sort(events.begin() + static_cast<std::ptrdiff_t>(first), events.end(),
+            [](const Event& a, const Event& b) {
+              return std::tie(a.t_ns, a.y, a.x, a.is_on) < std::tie(b.t_ns, b.y, b.x, b.is_on);
+            });
+  last_ns_ = t_ns;
+}
+
+/// The levels that a pixel crosses between two pictures. \param rise of l above the reference,
+/// beyond the contrast.
+void EventSensor::cross(int x, int y, float rise, std::int64_t begin_ns, std::int64_t span_ns,
+                        std::vector<Event>& events) {
+  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
+                         static_cast<std::size_t>(x)];
+  const bool is_on = rise > 0;
+  const float contrast = is_on ? pixel.on : -pixel.off;
+  const float end = pixel.above + rise;
+  float level = contrast;
+  for (; is_on ? level <= end : level >= end; level += contrast) {
+    const double share = std::clamp((level - pixel.above) / rise, 0.F, 1.F);
+    const std::int64_t t_ns =
+        begin_ns + std::max<std::int64_t>(1, std::llround(share * static_cast<double>(span_ns)));
+    if (t_ns < pixel.free_ns) continue;
+    events.push_back({t_ns, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_on});
+    pixel.free_ns = t_ns + refractory_ns_;
+  }
+  pixel.above = end - (level - contrast);
+}
+
+/// A Poisson process of all pixels together, at the rate of the dark, of which brighter pixels
+/// leave events out.
+void EventSensor::add_shots(const cv::Mat1f& light, std::int64_t begin_ns, std::int64_t span_ns,
+                            std::vector<Event>& events) {
+  const double rate_hz = parameters_.shot_hz * size_.area();
+  if (rate_hz == 0) return;
+  double after_s = 0;
+  const double span_s = 1e-9 * static_cast<double>(span_ns);
+  while ((after_s += shots_.exponential() / rate_hz) < span_s) {
+    const std::uint64_t drawn = shots_.bits();
+    const auto place = static_cast<std::size_t>((drawn >> 32) * pixels_.size() >> 32);
+    const auto width = static_cast<std::size_t>(size_.width);
+    const auto x = static_cast<std::uint16_t>(place % width);
+    const auto y = static_cast<std::uint16_t>(place / width);
+    const bool is_on = (drawn & 1) != 0;
+    const double share = 1 - (1 - kShotsInDaylight) * std::min(1.F, light(y, x));
+    if (shots_.uniform() >= share) continue;
+    const std::int64_t t_ns = begin_ns + std::max<std::int64_t>(1, std::llround(1e9 * after_s));
+    Pixel& pixel = pixels_[place];
+    if (t_ns < pixel.free_ns || t_ns > begin_ns + span_ns) continue;
+    events.push_back({t_ns, x, y, is_on});
+    pixel.free_ns = t_ns + refractory_ns_;
+  }
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,75 @@
+/// \file
+/// The pixels of an event camera, fed with pictures in linear light. Needs no renderer.
+///
+/// The model is that of ESIM (Rebecq, Gehrig, Scaramuzza, "ESIM: an Open Event Camera Simulator",
+/// CoRL 2018) with the noise of v2e (Hu, Liu, Delbruck, "v2e: From Video Frames to Realistic DVS
+/// Events", CVPRW 2021). With light L in daylights, a pixel sees
+///
+///     l = ln(L + dark),
+///
+/// linear in time between two pictures. It keeps a reference level, at first l of the first picture
+/// or, with a leak, less a part of C+ drawn at random, as after a long time in constant light:
+///
+/// * When l is above the reference by the pixel's contrast C+, there is an ON event, and the
+///   reference rises by C+. Likewise OFF and C-. A step of light by a factor R thus gives
+///   floor(ln R / C+) events.
+/// * C+ and C- of a pixel are drawn once: N(mean, spread), at least `kLeastContrast`.
+/// * Refractory: a pixel gives no event sooner than this after its last one. The reference still
+///   moves, as in ESIM: the events in between are lost.
+/// * Leak: the reference falls by leak * C+ a second, so that constant light gives ON events at the
+///   rate leak.
+/// * Shot noise: events at random times, ON and OFF alike, at the rate shot (1 - 3/4 min(1, L)):
+///   v2e's, whose brightest pixel has a quarter of the noise of the dark. They do not move the
+///   reference.
+///
+/// Not modelled: the finite bandwidth of a photoreceptor, which grows with light, and the limited
+/// rate at which a sensor is read.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/events/event.h"
+#include "sim/random.h"
+
+namespace lcs::sim {
+
+class EventSensor {
+ public:
+  static constexpr float kLeastContrast = 0.01F;
+
+  /// \param seed of contrasts and noise; equal seeds and pictures give equal events.
+  EventSensor(const scenario::Events& events, cv::Size size, std::uint64_t seed);
+
+  /// Appends the events after the time of the last picture, up to and including `t_ns`, in the
+  /// order of time, and of rows from the left at equal times. The first picture gives none.
+  /// \param light in daylights, >= 0; of the sensor's size.
+  /// \param t_ns later than the picture before.
+  /// \throws std::invalid_argument for another size or time.
+  void see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events);
+
+ private:
+  struct Pixel {
+    float seen;   ///< l of the last picture
+    float above;  ///< l less the reference, at that time
+    float on, off;
+    std::int64_t free_ns;  ///< the end of the refractory time
+  };
+  void cross(int x, int y, float rise, std::int64_t begin_ns, std::int64_t span_ns,
+             std::vector<Event>& events);
+  void add_shots(const cv::Mat1f& light, std::int64_t begin_ns, std::int64_t span_ns,
+                 std::vector<Event>& events);
+
+  scenario::Events parameters_;
+  std::int64_t refractory_ns_;
+  RandomStream shots_;
+  std::vector<Pixel> pixels_;  ///< row by row
+  cv::Size size_;
+  cv::Mat1f log_;
+  std::int64_t last_ns_ = 0;
+  bool has_seen_ = false;
+};
+
+}  // namespace lcs::sim

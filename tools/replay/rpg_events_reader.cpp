@@ -1,0 +1,145 @@
+// RPG's event-camera dataset (Mueggler et al., IJRR 2017): events.txt (t x y p), images.txt
+// (t name), calib.txt (fx fy cx cy k1 k2 p1 p2 k3), groundtruth.txt (TUM's lines, of the camera),
+// imu.txt (t ax ay az gx gy gz).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tools/files/csv.h"
+#include "tools/input/input_file.h"
+#include "tools/replay/calibration.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/text_table.h"
+#include "tools/replay/times.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEvents = "events.txt";
+constexpr const char* kPictures = "images.txt";
+
+/// The first four fields between blanks.
+std::array<std::string_view, 4> fields_in(std::string_view line) {
+  std::array<std::string_view, 4> fields;
+  for (std::string_view& field : fields) {
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    field = line.substr(0, line.find(' '));
+    line.remove_prefix(field.size());
+  }
+  return fields;
+}
+
+std::vector<sim::Event> read_events(const fs::path& path, Tally& tally) {
+  constexpr input::FileKind kKind{16 * input::kGibibyte, "give lines of t x y p"};
+  input::InputFile file(path, kKind);
+  std::vector<sim::Event> events;
+  for (std::string line; file.next_line(line);) {
+    const auto [time, column, row, polarity] = fields_in(bench::trimmed(line));
+    const auto t_ns = time_in(time, kSecond_ns);
+    const auto x = bench::number_in<std::uint16_t>(column);
+    const auto y = bench::number_in<std::uint16_t>(row);
+    if (!t_ns || !x || !y || (polarity != "0" && polarity != "1")) {
+      tally.add("events cannot be read and are left out",
+                fmt::format("{}:{}", path.string(), file.here().line));
+      continue;
+    }
+    if (!events.empty() && *t_ns < events.back().t_ns) {
+      throw input::Error(file.here(),
+                         "is earlier than the event before it; sort the lines by time");
+    }
+    events.push_back({*t_ns, *x, *y, polarity == "1"});
+  }
+  return events;
+}
+
+/// The numbers of a row; absent unless it has so many.
+std::optional<std::vector<double>> numbers_in(const TextTable::Row& row, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string& field : row.fields) {
+    if (const auto number = bench::number_in<double>(field)) numbers.push_back(*number);
+  }
+  if (numbers.size() != count || row.fields.size() != count) return std::nullopt;
+  return numbers;
+}
+
+Lens read_lens(const fs::path& file) {
+  const TextTable table = read_table(file);
+  const auto numbers = table.rows.size() == 1 ? numbers_in(table.rows[0], 9) : std::nullopt;
+  if (!numbers)
+    throw input::Error({file.string(), 0}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
+  const std::vector<double>& n = *numbers;
+  Lens lens;
+  lens.fu_px = n[0], lens.fv_px = n[1], lens.cu_px = n[2], lens.cv_px = n[3];
+  const std::vector<double> k(n.begin() + 4, n.end());
+  if (std::ranges::any_of(k, [](double c) { return c != 0; })) {
+    lens.distortion = Lens::Distortion::radial_tangential;
+    lens.coefficients = k;
+  }
+  lens.source = {file.string(), 0};
+  return lens;
+}
+
+std::vector<sim::ImuSample> read_imu(const fs::path& file, Tally& tally) {
+  const TextTable table = read_table(file);
+  std::vector<sim::ImuSample> samples;
+  for (const TextTable::Row& row : table.rows) {
+    const auto n = numbers_in(row, 7);
+    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
+    if (!n || !t_ns) {
+      tally.add("rows cannot be read and are left out", table.at(row));
+      continue;
+    }
+    const std::vector<double>& v = *n;
+    samples.push_back({*t_ns, {v[4], v[5], v[6]}, {v[1], v[2], v[3]}});
+  }
+  if (samples.empty())
+    throw input::Error({file.string(), 0}, "has no reading; give t ax ay az gx gy gz");
+  return samples;
+}
+
+}  // namespace
+
+bool is_rpg_events(const fs::path& folder) {
+  return fs::exists(folder / kEvents) && fs::exists(folder / kPictures);
+}
+
+/// The layout does not state where the camera is on the IMU. The motion is that of the IMU if
+/// `asked.calibration` states it, else that of the truth.
+Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
+  Recorded recorded;
+  const TextTable list = read_table(asked.path / kPictures);
+  for (const TextTable::Row& row : list.rows) {
+    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
+    if (!t_ns || row.fields.size() != 2) {
+      recorded.tally.add("rows cannot be read and are left out", list.at(row));
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(&row - list.rows.data());
+    recorded.frames.push_back({*t_ns, asked.path / row.fields[1], place});
+  }
+  put_in_order(recorded.frames, list.file, recorded.tally);
+  recorded.events = read_events(asked.path / kEvents, recorded.tally);
+  for (RecordedFrame& frame : recorded.frames) {
+    const auto end = std::ranges::upper_bound(recorded.events, frame.t_ns, {}, &sim::Event::t_ns);
+    frame.events = static_cast<std::size_t>(end - recorded.events.begin());
+  }
+  if (const fs::path file = asked.path / "calib.txt"; fs::exists(file))
+    recorded.lens = read_lens(file);
+  if (motion_is_asked(asked)) return recorded;
+  const fs::path imu = asked.path / "imu.txt", truth = asked.path / "groundtruth.txt";
+  const bool is_on_imu =
+      asked.calibration && read_calibration(*asked.calibration, asked.camera).T_BS;
+  if (is_on_imu && !exact_motion && fs::exists(imu)) {
+    SensorReadings readings;
+    readings.imu = read_imu(imu, recorded.tally);
+    move_by_readings(asked, imu, std::move(readings), recorded);
+  } else if (fs::exists(truth)) {
+    move_by_timed_poses(asked, truth, Eigen::Vector3d::UnitZ(), recorded);
+  }
+  return recorded;
+}
+
+}  // namespace lcs::replay
