@@ -50,7 +50,7 @@ class Observer {
   World world_;
   Calibration calibration_;
   LensRenderer renderer_;
-  std::vector<ConvexParts> parts_;
+  std::vector<ConvexParts> parts_;  ///< of each index of `Snapshot::T_WO`
   Photographer photographer_;
   Passage passage_;
   int observed_ = 0;    ///< number of frames rendered

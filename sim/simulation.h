@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/exposure_control.h"
 #include "sim/camera/optics.h"
 #include "sim/imu/imu.h"
 #include "sim/pose.h"
@@ -23,8 +24,9 @@ struct Observation {
   int index = 0;          ///< k, from 0
   std::int64_t t_ns = 0;  ///< k / rate, from 0, by the clock of the IMU
   cv::Mat3b image;        ///< BGR
-  /// BGR, before lens blur, light, weather and sensor: each pixel shows one surface, that of the
-  /// truth. With a distortion a pixel at an outline mixes its two surfaces.
+  Exposure exposure;      ///< of `image`
+  /// BGR, before lens blur, light, shadows, weather and sensor: each pixel shows one surface, that
+  /// of the truth. With a distortion a pixel at an outline mixes its two surfaces.
   cv::Mat3b rendered;
   cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
   /// t(k-1) < t <= t(k), with the times of frames that the filter is told (`time_offset_error` of
@@ -93,7 +95,8 @@ class Simulation {
   std::optional<Observation> next();
 
   /// Skips the next frame without rendering, in a hundredth of the time; later frames are the same
-  /// as without the skip. \throws PhysicsError
+  /// as without the skip. With `image.auto_exposure` they depend on its picture, which takes the
+  /// full time. \throws PhysicsError
   void skip();
 
  private:

@@ -387,7 +387,7 @@ TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
     EXPECT_TRUE(model) << entry.path() << ": " << message.data();
     EXPECT_STREQ(message.data(), "") << entry.path();
   }
-  EXPECT_EQ(files, 9);
+  EXPECT_EQ(files, 10);
 }
 
 TEST(Scene, ActorsOfOneShapeDoNotClash) {
