@@ -282,7 +282,7 @@ TEST(Walker, KeepsItsGaitAtAnotherSize) {
     walk.reach(0.005 * i);
     for (const std::string side : {"/left_", "/right_"}) {
       const Vector3d p = walk.body(side + "foot").p;
-      const double ankle_m = kAnkle_m * 1.2 / 1.68;
+      const double ankle_m = kAnkle_m * 1.2 / 1.7;
       const bool stays = last.contains(side) && last[side].z() < ankle_m + 1e-9;
       if (stays && p.z() < ankle_m + 1e-9) {
         EXPECT_LT((p - last[side]).norm() / 0.005, 1e-9);

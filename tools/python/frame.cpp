@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "filter/detect/picture_noise.h"
