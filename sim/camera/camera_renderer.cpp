@@ -99,11 +99,16 @@ cv::Mat1f shares_of(const cv::Mat3b& even, const cv::Mat3b& shaded) {
 void take_speckles_away(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& shaded) {
   constexpr int kReach_px = 2;
   const cv::Mat1f share = shares_of(even, shaded);
+  cv::Mat1f least, most;  // of the whole window
+  const cv::Mat window_of_ones = cv::Mat::ones(2 * kReach_px + 1, 2 * kReach_px + 1, CV_8U);
+  cv::erode(share, least, window_of_ones);
+  cv::dilate(share, most, window_of_ones);
   const cv::Rect picture({}, geom.size());
   std::vector<float> around;
   for (int y = 0; y < geom.rows; ++y) {
     for (int x = 0; x < geom.cols; ++x) {
-      if (geom(y, x) < 0) continue;
+      // usually the median cannot differ
+      if (geom(y, x) < 0 || most(y, x) - least(y, x) <= rounding(even(y, x))) continue;
       around.clear();
       const cv::Rect window =
           cv::Rect(x - kReach_px, y - kReach_px, 2 * kReach_px + 1, 2 * kReach_px + 1) & picture;
