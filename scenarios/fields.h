@@ -319,6 +319,20 @@ void fields(Image::Rain& rain, Visit&& visit) {
 }
 
 template <class Visit>
+void fields(Image::AutoExposure& control, Visit&& visit) {
+  auto& [target, time_constant_s, exposure_s, gain] = control;
+  visit({"target", "mean of the picture in linear light, in which 1 is a full pixel"}, target,
+        kShare);
+  visit({"time_constant", "in which a deviation from the target falls to 1/e; 0: in a frame"},
+        time_constant_s, kTime);
+  visit(
+      {"exposure", "`[least, most]` of `image.exposure`; the longest is used before the gain rises",
+       "the gain alone changes"},
+      exposure_s, In{kExposure, "ms"});
+  visit({"gain", "`[least, most]` of `image.gain`"}, gain, kGain);
+}
+
+template <class Visit>
 void fields(Image::Noise& noise, Visit&& visit) {
   auto& [full_well_e, read_e] = noise;
   visit({"full_well", "electrons of a full pixel; shot noise follows from them"}, full_well_e,
@@ -328,10 +342,14 @@ void fields(Image::Noise& noise, Visit&& visit) {
 
 template <class Visit>
 void fields(Image& image, Visit&& visit) {
-  auto& [light_lx, headlights, visibility_m, rain, blur_px, vignetting, exposure_s, gain, noise,
-         jpeg_quality] = image;
+  auto& [light_lx, shadows, headlights, visibility_m, rain, blur_px, vignetting, exposure_s, gain,
+         auto_exposure, noise, jpeg_quality] = image;
   visit({"light", "on the scene: 10 klx is an overcast day, 100 lx dusk, 0.5 lx night"}, light_lx,
         kIlluminance);
+  visit({"shadows",
+         "of those lights of the scene that have `castshadow`; corners near a shadow's edge have "
+         "no truth"},
+        shadows);
   visit({"headlights", "`{intensity: 3000 cd, beam: 20 deg}`: lamps at the camera", "none"},
         headlights);
   visit({"visibility", "distance at which contrast falls to 2 %", "none: clear air"}, visibility_m,
@@ -347,6 +365,11 @@ void fields(Image& image, Visit&& visit) {
          "streaks; `camera.exposure` smears what moves"},
         exposure_s, In{kExposure, "ms"});
   visit({"gain", "after the sensor, of signal and noise"}, gain, kGain);
+  visit({"auto_exposure",
+         "`{target: 0.2, time_constant: 0.2 s, gain: [1, 16]}`: each picture sets exposure and "
+         "gain of the next; `exposure` and `gain` are those of the first",
+         "exposure and gain stay"},
+        auto_exposure);
   visit({"noise", "`{full_well: 10000, read: 5}`, or `none`"}, noise, OrWord<Plain>{{}, "none"});
   visit({"jpeg", "quality by which the picture is compressed before anything reads it",
          "none: not compressed"},
@@ -438,10 +461,11 @@ void fields(Actor& actor, Visit&& visit) {
   std::optional<Shape> added;
   if (!body) added = shape;
   visit({"shape",
-         "adds one to the scene: `box`, `cylinder`, `pedestrian`, `car`, or one's own "
+         "adds one to the scene: `box`, `cylinder`, `pedestrian` (rigid), `walker` (a pedestrian "
+         "whose limbs move), `car`, or one's own "
          "(scenes/README.md): a path relative to this file",
          kOneOfThese},
-        added, OwnFileOr{{"box", "cylinder", "pedestrian", "car"}, shape_file});
+        added, OwnFileOr{{"box", "cylinder", "pedestrian", "car", "walker"}, shape_file});
   if (added) shape = *added;
   visit({"body", "the name of a body of the scene: moves that one", kOneOfThese}, body);
   visit.exactly_one_of({"shape", "body"});
@@ -455,9 +479,12 @@ void fields(Actor& actor, Visit&& visit) {
          "`windows` and others of `sim/scene/texture.cpp`), or a `.png` file, relative to this one",
          "the shape's own"},
         texture, StyleOrPicture{});
-  visit({"pose", "of a shape with joints: they stay as in this keyframe of its file, or at `zero`",
-         "it has no joints"},
-        pose);
+  visit(
+      {"pose",
+       "of a shape with joints: they stay as in this keyframe of its file, or at `zero`; or it is "
+       "`walking` (scenes/README.md)",
+       "it has no joints; a walker is `walking`"},
+      pose);
   visit({"class",
          "in COCO and MOT: a name of MOTChallenge (`pedestrian`, `car`, `bicycle`, `motorbike`, "
          "...), "

@@ -452,6 +452,31 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
   }
 }
 
+/// Checks that the first exposure and gain are ones that the control may choose.
+void complete(input::Reader& reader, Image& image) {
+  if (image.shadows && image.headlights) {
+    throw input::Error(reader.find("headlights")->where,
+                       reader.path_of("headlights") +
+                           " light places that the shadows of other lights leave dark, which the "
+                           "simulator does not draw; remove them, or image.shadows");
+  }
+  if (!image.auto_exposure) return;
+  input::Reader inner(*reader.find("auto_exposure"), reader.path_of("auto_exposure"));
+  const auto require_within = [&](const char* key, double first, const Eigen::Vector2d& bounds) {
+    if (bounds[0] <= first && first <= bounds[1]) return;
+    const input::Value* given = inner.find(key);
+    throw input::Error((given ? *given : *reader.find(key)).where,
+                       inner.path_of(key) + " is [" + input::number_text(bounds[0]) + ", " +
+                           input::number_text(bounds[1]) + "] without the " +
+                           input::number_text(first) + " of " + reader.path_of(key) +
+                           ", which the first picture has; give [least, most] round it");
+  };
+  require_within("gain", image.gain, image.auto_exposure->gain);
+  if (const auto& bounds_s = image.auto_exposure->exposure_s) {
+    require_within("exposure", image.exposure_s, *bounds_s);
+  }
+}
+
 /// Takes position and rotation from `T_BC`, and checks that a frame is whole before the next one.
 void complete(input::Reader& reader, Camera& camera) {
   const double period_s = 1 / camera.rate_hz;
@@ -514,9 +539,23 @@ void require_events(input::Reader& reader, const Scenario& scenario) {
   }
 }
 
+void require_one_exposure(input::Reader& reader, const Scenario& scenario) {
+  const auto smears = [](const Camera& camera) { return camera.exposure_s > 0; };
+  const bool is_smeared =
+      smears(scenario.camera) || std::ranges::any_of(scenario.cameras, smears, &RigCamera::camera);
+  const auto& control = scenario.image.auto_exposure;
+  if (!is_smeared || !control || !control->exposure_s) return;
+  throw input::Error(
+      reader.find("image")->where,
+      "image.auto_exposure.exposure changes the exposure, and camera.exposure smears "
+      "for a constant time; remove one of them (without the first the gain alone "
+      "changes)");
+}
+
 /// Chooses the camera of the detectors.
 void complete(input::Reader& reader, Scenario& scenario) {
   require_events(reader, scenario);
+  require_one_exposure(reader, scenario);
   if (scenario.cameras.empty() && scenario.filter_camera.empty()) return;
   const auto found = std::ranges::find(scenario.cameras, scenario.filter_camera, &RigCamera::name);
   if (found == scenario.cameras.end() && !scenario.filter_camera.empty()) {
@@ -561,7 +600,7 @@ struct ReadFields {
 
 /// Keys of other simulators, of calibrations and of other maps of a scenario, and the remedy where
 /// the map has no such key.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 40> kForeignKeys{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 55> kForeignKeys{{
     {"fx", "give camera.focal: [fx, fy]"},
     {"fy", "give camera.focal: [fx, fy]"},
     {"cx", "give camera.centre: [cx, cy]"},
@@ -601,7 +640,22 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 40> kForeign
     {"rate_hz", "give the rate of the sensor as its rate"},
     {"T_i_b", "give imu.position and imu.rotation"},
     {"stereo", "give the rig as cameras: {left: {...}, right: {...}}"},
-    {"auto_exposure", ""},
+    {"auto_exposure", "give image.auto_exposure"},
+    {"exposure_mode", "give image.auto_exposure"},
+    {"exposure_compensation", "give image.auto_exposure.target"},
+    {"exposure_speed_up", "give image.auto_exposure.time_constant"},
+    {"exposure_speed_down", "give image.auto_exposure.time_constant"},
+    {"bloom_intensity", ""},
+    {"chromatic_aberration_intensity", ""},
+    {"lens_flare_intensity", ""},
+    {"iso", "give image.gain"},
+    {"castshadow", "give image.shadows, and castshadow to lights in the scene's file"},
+    {"shadows", "give image.shadows"},
+    {"pedestrian", "give a shape: pedestrian (rigid) or walker (limbs that move)"},
+    {"walker", "give a shape: walker"},
+    {"gait", "give shape: walker, or pose: walking to one's own shape"},
+    {"animation", "give shape: walker, or pose: walking to one's own shape"},
+    {"skin", "give shape: walker; an actor has rigid parts alone"},
 }};
 
 void refuse_foreign_keys(const Item& item, const input::Reader& reader) {

@@ -47,6 +47,7 @@ inline constexpr input::Quantity kImuRate{input::Dimension::angular_rate, {0, 36
 inline constexpr input::Quantity kImuAcceleration{input::Dimension::acceleration, {0, 10000, true}};
 inline constexpr input::Quantity kRoughness{input::Dimension::length, {0, 1, true}};
 inline constexpr input::Quantity kRatio{input::Dimension::number, {0, 1}};
+inline constexpr input::Quantity kShare{input::Dimension::number, {0, 1, true, true}};
 inline constexpr input::Quantity kBound{input::Dimension::number, {}};
 
 }  // namespace lcs::scenario

@@ -227,12 +227,21 @@ struct Image {
     int lens_drops = 0;      ///< on the window in front of the lens at any time
     double drop_life_s = 4;  ///< mean time until a drop runs off and another lands
   };
+  /// Changes exposure and gain from frame to frame; `sim/camera/exposure_control.h` has the law.
+  /// `exposure_s` and `gain` are then those of the first frame.
+  struct AutoExposure {
+    double target = 0.2;           ///< mean of the picture in linear light, (0, 1)
+    double time_constant_s = 0.2;  ///< in which a deviation falls to 1/e; 0: within a frame
+    std::optional<Eigen::Vector2d> exposure_s;  ///< least and most; absent: it stays the same
+    Eigen::Vector2d gain{1, 16};                ///< least and most
+  };
   struct Noise {
     double full_well_e = 10000;  ///< electrons of a saturated pixel
     double read_e = 5;           ///< standard deviation of the read noise, electrons
   };
 
   double light_lx = kDaylight_lx;  ///< on the scene, without the rover's own lights
+  bool shadows = false;            ///< of the scene's lights that have `castshadow`
   std::optional<Headlights> headlights;
   std::optional<double> visibility_m;  ///< at which contrast falls to 2 %; absent: clear air
   std::optional<Rain> rain;
@@ -242,8 +251,9 @@ struct Image {
   double vignetting = 0;
   double exposure_s = kDaylightExposure_s;
   double gain = 1;
-  std::optional<Noise> noise = Noise{};  ///< absent: a sensor without noise
-  std::optional<int> jpeg_quality;       ///< 1 to 100; absent: no compression
+  std::optional<AutoExposure> auto_exposure;  ///< absent: exposure and gain stay the same
+  std::optional<Noise> noise = Noise{};       ///< absent: a sensor without noise
+  std::optional<int> jpeg_quality;            ///< 1 to 100; absent: no compression
 };
 
 /// Rough ground that wheels feel and the camera sees: a Gaussian random field.
@@ -286,10 +296,12 @@ struct StartTrigger {
   std::optional<double> ego_within_m;  ///< required distance to the ego, at most
 };
 
-enum class Shape { box, cylinder, pedestrian, car, own };
+enum class Shape { box, cylinder, pedestrian, car, walker, own };
 
 /// `Actor::pose` for all joints at zero, MuJoCo's reference.
 inline constexpr const char* kPoseZero = "zero";
+/// `Actor::pose` for limbs that walk (`sim/scene/gait.h`).
+inline constexpr const char* kPoseWalking = "walking";
 
 struct Actor {
   std::string name;
@@ -301,10 +313,16 @@ struct Actor {
   std::optional<Eigen::Vector3d>
       size_m;           ///< length (x), width (y), height (z); absent: the shape's default
   std::string texture;  ///< style of the procedural texture, or a PNG file; "": the shape's own
-  std::string pose;     ///< of its joints: a keyframe of its file, or `kPoseZero`; "": it has none
-  std::string kind;     ///< class in COCO and MOT; "": that of its shape
+  /// Of its joints: a keyframe of its file, `kPoseZero` or `kPoseWalking`; "": it has none, or
+  /// `kPoseWalking` for a walker.
+  std::string pose;
+  std::string kind;  ///< class in COCO and MOT; "": that of its shape
   Trajectory trajectory;
   StartTrigger start;
+
+  bool walks() const {
+    return pose == kPoseWalking || (!body && shape == Shape::walker && pose.empty());
+  }
 };
 
 /// The names of the on-disk layouts of recordings (`tools/replay/recorded.h` reads them).

@@ -52,6 +52,8 @@ const char* name_of(Shape shape) {
       return "actors/pedestrian.xml";
     case Shape::car:
       return "actors/car.xml";
+    case Shape::walker:
+      return "actors/walker.xml";
     case Shape::own:
       break;
   }

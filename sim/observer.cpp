@@ -15,12 +15,12 @@
 namespace lcs::sim {
 namespace {
 
-/// Convex parts of each object; index 0, the world, has none.
+/// Convex parts of each object and limb; index 0, the world, has none.
 std::vector<ConvexParts> outlines(const World& world) {
-  std::vector<ConvexParts> parts(world.objects().size() + 1);
+  std::vector<ConvexParts> parts(world.objects().size() + 1 + world.limb_objects().size());
   const mjModel& m = world.model().m();
   for (int geom = 0; geom < m.ngeom; ++geom) {
-    const int object = world.object_of_geom(geom);
+    const int object = world.carrier_of_geom(geom);
     if (object <= 0 || !world.is_drawn(geom)) continue;
     // at t = 0; the parts are constant, as bodies are rigid
     const Pose T_OW = world.model().body_pose(world.body_of(object)).inverse();
@@ -37,6 +37,19 @@ std::uint64_t noise_seed(const scenario::Scenario& s) {
   return RandomStream(s.seed, fmt::format("camera.{}", s.rig_place)).bits();
 }
 
+/// \throws input::Error if shadows are asked for and no light of the scene casts any.
+bool casts_shadows(const scenario::Scenario& s, const World& world) {
+  const mjModel& m = world.model().m();
+  if (!s.image.shadows) return false;
+  for (int light = 0; light < m.nlight; ++light) {
+    if (m.light_active[light] && m.light_castshadow[light]) return true;
+  }
+  throw input::Error({s.file.string(), 0},
+                     fmt::format("image.shadows is true, and no light of {} casts any; give one of "
+                                 "its lights castshadow=\"true\", or remove the key",
+                                 s.scene.string()));
+}
+
 Photographer photographer_of(const scenario::Scenario& s, const Optics& camera) {
   try {
     return {s.image, camera, s.camera.rate_hz, noise_seed(s)};
@@ -51,7 +64,8 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
     : scenario_(scenario),
       world_(scenario, wrong_start),
       calibration_(calibrate(world_, scenario.camera)),
-      renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups()),
+      renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups(),
+                casts_shadows(scenario, world_)),
       parts_(outlines(world_)),
       photographer_(photographer_of(scenario, calibration_.optics)),
       passage_(world_, scenario) {
@@ -92,7 +106,10 @@ void Observer::note_unseen() {
     const Object& object =
         *std::ranges::find(world_.objects(), actor.body.value_or(actor.name), &Object::name);
     if (seen_.contains(object.id)) continue;
-    const bool is_drawn = !parts_[static_cast<std::size_t>(object.id)].empty();
+    bool is_drawn = false;
+    for (int geom = 0; geom < world_.model().m().ngeom; ++geom) {
+      is_drawn |= world_.object_of_geom(geom) == object.id && world_.is_drawn(geom);
+    }
     world_.warnings().add(
         Warning::actors_never_seen,
         fmt::format("actor '{}' is in none of the {} pictures{}", actor.name, scenario_.frames,
@@ -101,7 +118,7 @@ void Observer::note_unseen() {
 }
 
 void Observer::advance() {
-  if (event_sensor_) {
+  if (event_sensor_ || scenario_.image.auto_exposure) {
     observe();
     return;
   }
@@ -113,7 +130,9 @@ void Observer::render(Observation& o) {
   renderer_.update();
   renderer_.render_colour(o.rendered);
   renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
-  CameraRenderer::blur(o.rendered, o.image);
+  cv::Mat3b shaded;
+  if (scenario_.image.shadows) renderer_.render_shaded(shaded, o.truth.shadow_edge);
+  CameraRenderer::blur(scenario_.image.shadows ? shaded : o.rendered, o.image);
 }
 
 void Observer::show(const Stage& stage) {
@@ -141,7 +160,7 @@ void Observer::visit_ways(const std::vector<const Snapshot*>& at, const Snapshot
   std::vector<double> parts_px(at.size() - 1);
   for (int y = 0; y < geom.rows; y += kStride_px) {
     for (int x = 0; x < geom.cols; x += kStride_px) {
-      const int object = geom(y, x) < 0 ? -1 : world_.object_of_geom(geom(y, x));
+      const int object = geom(y, x) < 0 ? -1 : world_.carrier_of_geom(geom(y, x));
       if (object < 0) continue;
       const Eigen::Vector3d p_C = optics.back_project(Eigen::Vector2d(x, y), depth_m(y, x));
       std::ranges::fill(parts_px, 0.0);
@@ -234,18 +253,26 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
                     "instants, {:.2f} px apart",
                     o.index, shift, n, shift / n));
   }
-  if (!shutter.rolls()) renderer_.render_colour(o.rendered);  // of the frame's time, as the truth
+  const bool has_shadows = scenario_.image.shadows;
   cv::Mat3f light;
-  cv::Mat3b drawing;
+  cv::Mat3b drawing, seen, sharp;  // `seen` and `sharp` have the shadows
   cv::Mat1f depth_m;
-  cv::Mat1i geom;
+  cv::Mat1i geom, edge;
+  if (!shutter.rolls()) {  // of the frame's time, as the truth
+    renderer_.render_colour(o.rendered);
+    if (has_shadows) renderer_.render_shaded(seen, o.truth.shadow_edge);
+  }
   for (int i = 0; i < n; ++i) {
     show(frame.stages[Shutter::instant_of(i, n)]);
-    renderer_.render_colour(drawing);
-    const int rows = drawing.rows;
+    if (has_shadows) {
+      renderer_.render_shaded(seen, edge);
+    } else {
+      renderer_.render_colour(seen);
+    }
+    const int rows = seen.rows;
     if (shutter.smears()) {
-      if (light.empty()) light = cv::Mat3f::zeros(drawing.size());
-      const cv::Mat3f linear = to_linear(drawing);
+      if (light.empty()) light = cv::Mat3f::zeros(seen.size());
+      const cv::Mat3f linear = to_linear(seen);
       for (int y = 0; y < rows; ++y) {
         if (const double share = shutter.share(y, i, n); share > 0) {
           cv::scaleAdd(linear.row(y), share, light.row(y), light.row(y));
@@ -253,7 +280,11 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
       }
     }
     if (!shutter.rolls()) continue;
-    if (o.rendered.empty()) o.rendered.create(drawing.size());
+    if (o.rendered.empty()) {
+      o.rendered.create(seen.size());
+      sharp.create(seen.size());
+      if (has_shadows) o.truth.shadow_edge.create(seen.size());
+    }
     std::vector<int> own;  // rows whose time is in this cell: they are next to each other
     for (int y = 0; y < rows; ++y) {
       if (shutter.drawing_of(y, n) == i) own.push_back(y);
@@ -264,24 +295,32 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
     const auto take = [&](const cv::Mat& from, cv::Mat& to) {
       from.rowRange(range).copyTo(to.rowRange(range));
     };
-    take(drawing, o.rendered);
+    take(seen, sharp);
+    if (has_shadows) {
+      renderer_.render_colour(drawing);
+      take(drawing, o.rendered);
+      take(edge, o.truth.shadow_edge);
+    } else {
+      take(seen, o.rendered);
+    }
     take(depth_m, o.truth.depth_m);
     take(geom, o.geom);
   }
   world_.show(present);
-  if (shutter.smears()) {
-    to_codes(light, drawing);
-  } else {
-    drawing = o.rendered;
-  }
-  CameraRenderer::blur(drawing, o.image);
+  if (shutter.smears()) to_codes(light, sharp);
+  CameraRenderer::blur(sharp, o.image);
 }
 
 void Observer::develop(Observation& o) {
-  photographer_.develop(o.image, o.truth.depth_m, o.index);
+  o.exposure = photographer_.develop(o.image, o.truth.depth_m, o.index);
   o.truth.object.create(o.geom.size());
   std::transform(o.geom.begin(), o.geom.end(), o.truth.object.begin(),
                  [&](int geom) { return geom < 0 ? -1 : world_.object_of_geom(geom); });
+  o.truth.limb_objects = world_.limb_objects();
+  if (o.truth.limb_objects.empty()) return;
+  o.truth.part.create(o.geom.size());
+  std::transform(o.geom.begin(), o.geom.end(), o.truth.part.begin(),
+                 [&](int geom) { return geom < 0 ? -1 : world_.carrier_of_geom(geom); });
 }
 
 /// Area of each object's pixels in the picture of the pinhole, by id.
@@ -302,18 +341,28 @@ std::vector<double> Observer::areas_px(const cv::Mat1i& object) const {
 }
 
 std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) const {
-  std::vector<ObjectTruth> all = modal_boxes(truth.object, static_cast<int>(parts_.size()) - 1);
+  std::vector<ObjectTruth> all =
+      modal_boxes(truth.object, static_cast<int>(world_.objects().size()));
   std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
   const Way way(truth, truth.object.rows);
   const std::vector<double> seen_px = areas_px(truth.object);
   for (ObjectTruth& o : all) {
     const auto id = static_cast<std::size_t>(o.object);
     const double row = (o.top + o.bottom) / 2.0;
+    ConvexParts parts = parts_[id];
+    for (std::size_t i = 0; i < truth.limb_objects.size(); ++i) {
+      if (truth.limb_objects[i] != o.object) continue;
+      const std::size_t limb = world_.objects().size() + 1 + i;
+      const Pose T_OL = way.T_WO(id, row).inverse() * way.T_WO(limb, row);
+      for (const Eigen::Matrix3Xd& part : parts_[limb]) {
+        parts.push_back((T_OL.R * part).colwise() + T_OL.p);
+      }
+    }
     const double full =
-        silhouette_px(calibration_.camera, way.T_WC(row).inverse() * way.T_WO(id, row), parts_[id],
+        silhouette_px(calibration_.camera, way.T_WC(row).inverse() * way.T_WO(id, row), parts,
                       renderer_.near_m());
     o.visible_fraction = full > 0 ? std::min(1.0, seen_px[id] / full) : 0;
-    o.moving = way.moves(id);
+    o.moving = way.any_moves(id);
   }
   return all;
 }

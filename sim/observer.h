@@ -56,7 +56,7 @@ class Observer {
   World world_;
   Calibration calibration_;
   LensRenderer renderer_;
-  std::vector<ConvexParts> parts_;
+  std::vector<ConvexParts> parts_;  ///< of each index of `Snapshot::T_WO`
   Photographer photographer_;
   Passage passage_;
   std::optional<EventSensor> event_sensor_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/exposure_control.h"
 #include "sim/camera/optics.h"
 #include "sim/events/event.h"
 #include "sim/imu/imu.h"
@@ -24,8 +25,9 @@ struct Observation {
   int index = 0;          ///< k, from 0
   std::int64_t t_ns = 0;  ///< k / rate, from 0, by the clock of the IMU
   cv::Mat3b image;        ///< BGR
-  /// BGR, before lens blur, light, weather and sensor: each pixel shows one surface, that of the
-  /// truth. With a distortion a pixel at an outline mixes its two surfaces.
+  Exposure exposure;      ///< of `image`
+  /// BGR, before lens blur, light, shadows, weather and sensor: each pixel shows one surface, that
+  /// of the truth. With a distortion a pixel at an outline mixes its two surfaces.
   cv::Mat3b rendered;
   cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
   /// t(k-1) < t <= t(k), with the times of frames that the filter is told (`time_offset_error` of
@@ -95,9 +97,9 @@ class Simulation {
   /// \throws PhysicsError
   std::optional<Observation> next();
 
-  /// Skips the next frame without rendering, in a hundredth of the time; with event pixels, which
-  /// remember what they saw, it renders. Later frames are the same as without the skip.
-  /// \throws PhysicsError
+  /// Skips the next frame without rendering, in a hundredth of the time; later frames are the same
+  /// as without the skip. Event pixels and `image.auto_exposure` remember its picture, so that with
+  /// them it is rendered. \throws PhysicsError
   void skip();
 
  private:

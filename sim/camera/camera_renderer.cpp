@@ -23,11 +23,16 @@ constexpr double kLeastFar = 100;  // m
 // Standard deviation of the lens's point spread.
 constexpr double kLensBlur_px = 0.6;
 
-void prepare(mjModel& m, int width_px, int height_px) {
+// Side of a shadow map, in texels; it spans twice the scene's extent for a directional light.
+constexpr int kShadowMap = 4096;
+// Least difference of the share of light from pixel to pixel at the edge of a shadow.
+constexpr double kShadowStep = 0.04;
+
+void prepare(mjModel& m, int width_px, int height_px, bool has_shadows) {
   m.vis.global.offwidth = width_px;
   m.vis.global.offheight = height_px;
   m.vis.quality.offsamples = 0;
-  m.vis.quality.shadowsize = 0;
+  m.vis.quality.shadowsize = has_shadows ? kShadowMap : 0;
   // MuJoCo's clipping planes are in multiples of the scene's extent
   const double extent = m.stat.extent;
   m.vis.map.znear = static_cast<float>(kNear / extent);
@@ -43,7 +48,8 @@ void prepare(mjModel& m, int width_px, int height_px) {
 
 /// Mesa crashes when it runs out of memory. \throws std::runtime_error if the memory limit (ulimit
 /// -v) is too small to render an image. Checks at the first renderer of the process only.
-void check_memory(Model& model, const GeomGroups& groups, int camera, int width_px, int height_px) {
+void check_memory(Model& model, const GeomGroups& groups, int camera, int width_px, int height_px,
+                  bool has_shadows) {
   static std::atomic<bool> checked = false;
   struct rlimit memory = {};
   if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY ||
@@ -54,7 +60,7 @@ void check_memory(Model& model, const GeomGroups& groups, int camera, int width_
   const Trial trial = try_in_child([&] {
     memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
     ::setrlimit(RLIMIT_AS, &memory);
-    CameraRenderer renderer(model, camera, width_px, height_px, groups);
+    CameraRenderer renderer(model, camera, width_px, height_px, groups, has_shadows);
     cv::Mat3b picture;
     cv::Mat1f depth;
     cv::Mat1i geoms;
@@ -71,6 +77,75 @@ void check_memory(Model& model, const GeomGroups& groups, int camera, int width_
       trial.crash.empty() ? trial.refused : trial.crash));
 }
 
+double sum(const cv::Vec3b& colour) {
+  return colour[0] + colour[1] + colour[2];
+}
+
+/// What rounding to grey levels can change the share of light of a pixel by.
+double rounding(const cv::Vec3b& even) {
+  return 3 / std::max(sum(even), 1.0);
+}
+
+/// The share of its light that each pixel keeps in shadow.
+cv::Mat1f shares_of(const cv::Mat3b& even, const cv::Mat3b& shaded) {
+  cv::Mat1f share(even.size());
+  std::transform(even.begin(), even.end(), shaded.begin(), share.begin(),
+                 [](const cv::Vec3b& lit, const cv::Vec3b& dark) {
+                   return static_cast<float>(sum(lit) > 0 ? sum(dark) / sum(lit) : 1);
+                 });
+  return share;
+}
+
+void take_speckles_away(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& shaded) {
+  constexpr int kReach_px = 2;
+  const cv::Mat1f share = shares_of(even, shaded);
+  cv::Mat1f least, most;  // of the whole window
+  const cv::Mat window_of_ones = cv::Mat::ones(2 * kReach_px + 1, 2 * kReach_px + 1, CV_8U);
+  cv::erode(share, least, window_of_ones);
+  cv::dilate(share, most, window_of_ones);
+  const cv::Rect picture({}, geom.size());
+  std::vector<float> around;
+  for (int y = 0; y < geom.rows; ++y) {
+    for (int x = 0; x < geom.cols; ++x) {
+      // usually the median cannot differ
+      if (geom(y, x) < 0 || most(y, x) - least(y, x) <= rounding(even(y, x))) continue;
+      around.clear();
+      const cv::Rect window =
+          cv::Rect(x - kReach_px, y - kReach_px, 2 * kReach_px + 1, 2 * kReach_px + 1) & picture;
+      for (int row = window.y; row < window.br().y; ++row) {
+        for (int column = window.x; column < window.br().x; ++column) {
+          if (geom(row, column) == geom(y, x)) around.push_back(share(row, column));
+        }
+      }
+      const auto middle = around.begin() + std::ssize(around) / 2;
+      std::nth_element(around.begin(), middle, around.end());
+      if (std::abs(share(y, x) - *middle) <= rounding(even(y, x))) continue;
+      for (int c = 0; c < 3; ++c) {
+        shaded(y, x)[c] = cv::saturate_cast<uchar>(*middle * static_cast<float>(even(y, x)[c]));
+      }
+    }
+  }
+}
+
+cv::Mat1b shadow_edges(const cv::Mat3b& even, const cv::Mat1i& geom, const cv::Mat3b& shaded) {
+  const cv::Mat1f share = shares_of(even, shaded);
+  cv::Mat1b edge(geom.size(), uchar{0});
+  for (int y = 0; y < geom.rows; ++y) {
+    for (int x = 0; x < geom.cols; ++x) {
+      const cv::Point here(x, y);
+      for (const cv::Point& there : {cv::Point(x + 1, y), cv::Point(x, y + 1)}) {
+        if (there.x == geom.cols || there.y == geom.rows) continue;
+        if (geom(here) < 0 || geom(here) != geom(there)) continue;
+        const double unsure = rounding(even(here)) + rounding(even(there));
+        if (std::abs(share(here) - share(there)) > kShadowStep + unsure) {
+          edge(here) = edge(there) = 1;
+        }
+      }
+    }
+  }
+  return edge;
+}
+
 }  // namespace
 
 struct CameraRenderer::Impl {
@@ -84,12 +159,13 @@ struct CameraRenderer::Impl {
   std::vector<float> z;
   std::optional<Pinhole> view;
 
-  Impl(Model& model_, const GeomGroups& groups, int camera, int width_px_, int height_px_)
+  Impl(Model& model_, const GeomGroups& groups, int camera, int width_px_, int height_px_,
+       bool has_shadows)
       : model(model_),
         width_px(width_px_),
         height_px(height_px_),
         drawables(model, groups, camera) {
-    prepare(model.m(), width_px, height_px);
+    prepare(model.m(), width_px, height_px, has_shadows);
     mjr_defaultContext(&context);
     try {
       start();
@@ -155,9 +231,9 @@ struct CameraRenderer::Impl {
 };
 
 CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px,
-                               const GeomGroups& groups) {
-  check_memory(model, groups, camera, width_px, height_px);
-  impl_ = std::make_unique<Impl>(model, groups, camera, width_px, height_px);
+                               const GeomGroups& groups, bool has_shadows) {
+  check_memory(model, groups, camera, width_px, height_px, has_shadows);
+  impl_ = std::make_unique<Impl>(model, groups, camera, width_px, height_px, has_shadows);
 }
 
 CameraRenderer::~CameraRenderer() = default;
@@ -189,6 +265,15 @@ void CameraRenderer::render_colour(cv::Mat3b& bgr) {
     cv::Vec3b* to = bgr[y];
     for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
   }
+}
+
+void CameraRenderer::render_shaded(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& bgr,
+                                   cv::Mat1b& edge) {
+  impl_->scene.flags[mjRND_SHADOW] = 1;
+  render_colour(bgr);
+  impl_->scene.flags[mjRND_SHADOW] = 0;
+  take_speckles_away(even, geom, bgr);
+  edge = shadow_edges(even, geom, bgr);
 }
 
 void CameraRenderer::blur(const cv::Mat3b& sharp, cv::Mat3b& picture) {

@@ -104,6 +104,15 @@ void Drawables::update(Model& model) {
     ++count;
   }
   scene_.ngeom = count;
+  // A shadow map begins at the light's place, and spans the extent on each side of it.
+  const mjStatistic& whole = model.m().stat;
+  for (int i = 0; i < scene_.nlight; ++i) {
+    mjvLight& light = scene_.lights[i];
+    if (!light.castshadow || light.type != mjLIGHT_DIRECTIONAL) continue;
+    for (int c = 0; c < 3; ++c) {
+      light.pos[c] = static_cast<float>(whole.center[c] - 2 * whole.extent * light.dir[c]);
+    }
+  }
 }
 
 std::vector<std::pair<mjtObj, int>> undrawn_parts(const Model& model) {

@@ -31,7 +31,8 @@ class Drawables {
   Drawables(const Drawables&) = delete;
   Drawables& operator=(const Drawables&) = delete;
 
-  /// Takes the poses of the model's last forward pass.
+  /// Takes the poses of the model's last forward pass, and places directional lights so that all
+  /// within the scene's extent can cast shadows.
   void update(Model& model);
   mjvScene& scene() { return scene_; }
 

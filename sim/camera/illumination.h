@@ -10,8 +10,8 @@
 ///
 ///     L = E exp(-beta d) * reflectance + (1 - exp(-beta d)) * airlight
 ///
-/// The lamps are at the camera. A beam from elsewhere would cast shadows; they move over surfaces,
-/// so that the truth would be wrong there. `light` is equal on surfaces of every direction.
+/// The lamps are at the camera. A beam from elsewhere would cast shadows. `light` is equal on
+/// surfaces of every direction.
 #pragma once
 
 #include <opencv2/core.hpp>

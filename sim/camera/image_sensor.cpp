@@ -30,16 +30,15 @@ std::vector<float> draw_normals(std::uint64_t seed) {
 }  // namespace
 
 ImageSensor::ImageSensor(const scenario::Image& image, std::uint64_t scenario_seed)
-    : image_(image), seed_(scenario_seed) {
+    : noise_(image.noise), seed_(scenario_seed) {
   if (image.noise) normals_ = draw_normals(scenario_seed);
 }
 
-void ImageSensor::expose(cv::Mat3f& picture, int k) const {
-  const auto exposure =
-      static_cast<float>(image_.exposure_s / scenario::Image::kDaylightExposure_s);
-  const auto gain = static_cast<float>(image_.gain);
-  for (cv::Vec3f& pixel : picture) pixel *= exposure;
-  if (image_.noise) add_noise(picture, k);
+void ImageSensor::expose(cv::Mat3f& picture, const Exposure& exposure, int k) const {
+  const auto light = static_cast<float>(exposure.time_s / scenario::Image::kDaylightExposure_s);
+  const auto gain = static_cast<float>(exposure.gain);
+  for (cv::Vec3f& pixel : picture) pixel *= light;
+  if (noise_) add_noise(picture, k);
   for (cv::Vec3f& pixel : picture) {
     for (int c = 0; c < 3; ++c) pixel[c] = gain * std::min(pixel[c], 1.F);
   }
@@ -47,9 +46,9 @@ void ImageSensor::expose(cv::Mat3f& picture, int k) const {
 
 void ImageSensor::add_noise(cv::Mat3f& picture, int k) const {
   RandomStream random(seed_, "image.noise." + std::to_string(k));
-  const auto full_well = static_cast<float>(image_.noise->full_well_e);
+  const auto full_well = static_cast<float>(noise_->full_well_e);
   const auto read_variance =
-      static_cast<float>(image_.noise->read_e * image_.noise->read_e) / (full_well * full_well);
+      static_cast<float>(noise_->read_e * noise_->read_e) / (full_well * full_well);
   for (cv::Vec3f& pixel : picture) {
     const std::uint64_t bits = random.bits();
     for (int c = 0; c < 3; ++c) {

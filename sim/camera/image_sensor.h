@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/exposure_control.h"
 
 namespace lcs::sim {
 
@@ -20,12 +21,12 @@ class ImageSensor {
   ImageSensor(const scenario::Image& image, std::uint64_t scenario_seed);
 
   /// Exposes the image of frame `k` in place, in linear light; the result is not yet clipped at 1.
-  void expose(cv::Mat3f& picture, int k) const;
+  void expose(cv::Mat3f& picture, const Exposure& exposure, int k) const;
 
  private:
   void add_noise(cv::Mat3f& picture, int k) const;
 
-  scenario::Image image_;
+  std::optional<scenario::Image::Noise> noise_;
   std::uint64_t seed_;
   std::vector<float> normals_;  ///< standard normal samples, drawn once; each pixel picks at random
 };

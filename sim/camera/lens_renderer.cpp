@@ -8,6 +8,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/truth/truth.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -79,13 +81,15 @@ float slope(float before, float here, float after) {
 
 }  // namespace
 
-LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups)
-    : LensRenderer(model, camera, optics, groups, sample_rays(optics)) {}
+LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
+                           bool has_shadows)
+    : LensRenderer(model, camera, optics, groups, has_shadows, sample_rays(optics)) {}
 
 LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-                           const cv::Mat2d& rays)
-    : view_(view_of(optics, rays)),
-      renderer_(model, camera, view_.width_px, view_.height_px, groups) {
+                           bool has_shadows, const cv::Mat2d& rays)
+    : optics_(optics),
+      view_(view_of(optics, rays)),
+      renderer_(model, camera, view_.width_px, view_.height_px, groups, has_shadows) {
   const Pinhole centred = Pinhole::from_fovy(view_.width_px, view_.height_px,
                                              2 * std::atan(view_.height_px / 2.0 / view_.focal_px));
   if (!optics.is_pinhole() || view_.centre_px != centred.centre_px) renderer_.set_view(view_);
@@ -105,6 +109,38 @@ LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const
 
 void LensRenderer::render_colour(cv::Mat3b& bgr) {
   renderer_.render_colour(bgr);
+  resample(bgr);
+}
+
+void LensRenderer::render_shaded(cv::Mat3b& bgr, cv::Mat1i& edge) {
+  cv::Mat3b even;
+  cv::Mat1f depth_m;
+  cv::Mat1i geom;
+  cv::Mat1b sharp, wide;
+  renderer_.render_colour(even);
+  renderer_.render_depth_and_geoms(depth_m, geom);
+  renderer_.render_shaded(even, geom, bgr, sharp);
+  resample(bgr);
+  if (!centres_.empty()) {
+    // the view has two pixels and more for each one of the lens: none is left out between two
+    const cv::Mat1b in_view = sharp;
+    sharp = cv::Mat1b(bgr.size(), uchar{0});
+    for (int y = 0; y < in_view.rows; ++y) {
+      for (int x = 0; x < in_view.cols; ++x) {
+        if (!in_view(y, x)) continue;
+        const Eigen::Vector2d px = optics_.project(view_.back_project(Eigen::Vector2d(x, y), 1));
+        if (!px.allFinite()) continue;
+        const cv::Point there(cvRound(px.x()), cvRound(px.y()));
+        if (cv::Rect({}, sharp.size()).contains(there)) sharp(there) = 1;
+      }
+    }
+  }
+  constexpr int kSide_px = 2 * kShadowEdge_px + 1;
+  cv::dilate(sharp, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSide_px, kSide_px}));
+  wide.convertTo(edge, CV_32S);
+}
+
+void LensRenderer::resample(cv::Mat3b& bgr) const {
   if (samples_.empty()) return;
   cv::Mat3b samples;
   cv::remap(bgr, samples, samples_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);

@@ -23,7 +23,10 @@ class LensRenderer {
   /// \param camera of the model; \param optics of its picture. As `CameraRenderer`.
   /// \throws input::Error if the pinhole would be too large.
   LensRenderer(Model& model, int camera, const Optics& optics,
-               const GeomGroups& groups = kUsualGroups);
+               const GeomGroups& groups = kUsualGroups, bool has_shadows = false);
+
+  /// The picture with shadows, and 1 within `kShadowEdge_px` of their edges.
+  void render_shaded(cv::Mat3b& bgr, cv::Mat1i& edge);
 
   /// \name As those of `CameraRenderer`.
   ///@{
@@ -36,8 +39,10 @@ class LensRenderer {
 
  private:
   LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-               const cv::Mat2d& rays);
+               bool has_shadows, const cv::Mat2d& rays);
+  void resample(cv::Mat3b& bgr) const;
 
+  Optics optics_;
   Pinhole view_;       ///< rendered
   cv::Mat2f centres_;  ///< place in the view of each pixel; empty if the view is the picture
   cv::Mat2f samples_;  ///< likewise of 2 x 2 samples in each pixel

@@ -35,10 +35,10 @@ Photographer::Photographer(const scenario::Image& image, const Optics& camera, d
       jpeg_quality_(image.jpeg_quality),
       rate_hz_(rate_hz),
       illumination_(image, camera),
-      sensor_(image, scenario_seed) {
+      sensor_(image, scenario_seed),
+      control_(image, 1 / rate_hz) {
   if (image.vignetting > 0) falloff_ = falloff_of(image.vignetting, camera.lens());
-  if (image.rain)
-    rain_.emplace(*image.rain, image.exposure_s, camera.lens().pinhole(), scenario_seed);
+  if (image.rain) rain_.emplace(*image.rain, camera.lens().pinhole(), scenario_seed);
 }
 
 void Photographer::pass_lens(cv::Mat3f& light) const {
@@ -56,19 +56,22 @@ cv::Mat1f Photographer::light(const cv::Mat3b& picture, const cv::Mat1f& depth_m
   return luminance;
 }
 
-void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {
+Exposure Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {
+  const Exposure exposure = control_.next();
   cv::Mat3f light = to_linear(picture);
   illumination_.light(light, depth_m);
   if (rain_) {
-    rain_->add_streaks(light, depth_m, illumination_, k);
+    rain_->add_streaks(light, depth_m, illumination_, exposure.time_s, k);
     rain_->look_through_drops(light, k / rate_hz_);
   }
   pass_lens(light);
-  sensor_.expose(light, k);
+  sensor_.expose(light, exposure, k);
+  control_.see(light);
   to_codes(light, picture);
   if (jpeg_quality_) {
     media().imdecode(encode_jpeg(picture, *jpeg_quality_), cv::IMREAD_COLOR).copyTo(picture);
   }
+  return exposure;
 }
 
 }  // namespace lcs::sim

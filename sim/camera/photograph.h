@@ -22,9 +22,10 @@ class Photographer {
   Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
                std::uint64_t scenario_seed);
 
-  /// Converts the rendered image of frame `k` in place. The result depends on the arguments alone;
-  /// frames in order of time are fastest.
-  void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
+  /// Converts the rendered image of frame `k` in place. The result depends on the arguments alone,
+  /// but with `auto_exposure` on all frames before, too; frames in order of time are fastest.
+  /// \return exposure and gain of this frame.
+  Exposure develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
 
   /// The light that a rendered image gives behind the lens, without rain: luminance by the weights
   /// of Rec. 709, in daylights. `kReflectance` is added to the reflectance of all surfaces, as ESIM
@@ -44,6 +45,7 @@ class Photographer {
   std::optional<Rain> rain_;
   cv::Mat3f falloff_;  ///< of the lens's light; empty: none
   ImageSensor sensor_;
+  ExposureControl control_;
 };
 
 }  // namespace lcs::sim

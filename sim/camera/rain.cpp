@@ -73,9 +73,8 @@ struct Rain::Streak {
   double share;  ///< of the exposure during which it covers a pixel
 };
 
-Rain::Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
-           std::uint64_t scenario_seed)
-    : rain_(rain), exposure_s_(exposure_s), camera_(camera), seed_(scenario_seed) {
+Rain::Rain(const scenario::Image::Rain& rain, const Pinhole& camera, std::uint64_t scenario_seed)
+    : rain_(rain), camera_(camera), seed_(scenario_seed) {
   if (rain_.rate_mmph <= 0) return;
   const double rays = camera_.width_px * camera_.height_px / std::pow(camera_.focal_px, 2);
   const double volume_m3 = rays * (cube(kFarthest_m) - cube(kNearest_m)) / 3;
@@ -88,12 +87,12 @@ Rain::Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& 
   }
 }
 
-Rain::Streak Rain::draw_streak(RandomStream& random) const {
+Rain::Streak Rain::draw_streak(RandomStream& random, double exposure_s) const {
   const double near3 = cube(kNearest_m);
   const double z = std::cbrt(near3 + random.uniform() * (cube(kFarthest_m) - near3));
   const double diameter_mm =
       std::min(kMost_mm, kLeast_mm - std::log1p(-random.uniform()) / decay(rain_.rate_mmph));
-  const double fall_m = fall_speed_mps(diameter_mm) * exposure_s_;
+  const double fall_m = fall_speed_mps(diameter_mm) * exposure_s;
   const double diameter_m = diameter_mm / 1000;
   const double px_per_m = camera_.focal_px / z;
   Streak streak{};
@@ -109,12 +108,12 @@ Rain::Streak Rain::draw_streak(RandomStream& random) const {
 }
 
 void Rain::add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illumination& light,
-                       int k) const {
+                       double exposure_s, int k) const {
   if (rain_.rate_mmph <= 0) return;
   RandomStream random(seed_, "rain.streaks." + std::to_string(k));
   const int count = static_cast<int>(expected_ + random.uniform());
   for (int i = 0; i < count; ++i) {
-    const Streak s = draw_streak(random);
+    const Streak s = draw_streak(random, exposure_s);
     const auto z = static_cast<float>(s.distance_m);
     const cv::Range columns =
         pixels(s.x_px - s.width_px / 2 - 0.5, s.x_px + s.width_px / 2 + 0.5, picture.cols);

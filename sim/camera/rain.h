@@ -33,13 +33,12 @@ struct LensDrop {
 class Rain {
  public:
   /// \throws std::invalid_argument if more drops would be visible than can be drawn.
-  Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
-       std::uint64_t scenario_seed);
+  Rain(const scenario::Image::Rain& rain, const Pinhole& camera, std::uint64_t scenario_seed);
 
   /// Draws the streaks of frame `k` in front of pixels that are farther away.
-  /// \param picture in linear light, in daylights.
+  /// \param picture in linear light, in daylights. \param exposure_s that the drops fall.
   void add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illumination& light,
-                   int k) const;
+                   double exposure_s, int k) const;
 
   /// The drops on the window at time `t_s`. They depend on the seed and the time alone; increasing
   /// times are fastest.
@@ -58,10 +57,9 @@ class Rain {
     int generation;  ///< number of the present drop
   };
   Place dry_place(int number) const;
-  Streak draw_streak(RandomStream& random) const;
+  Streak draw_streak(RandomStream& random, double exposure_s) const;
 
   scenario::Image::Rain rain_;
-  double exposure_s_;
   Pinhole camera_;
   std::uint64_t seed_;
   double expected_ = 0;  ///< mean number of streaks per frame

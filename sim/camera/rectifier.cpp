@@ -169,7 +169,7 @@ void Rectifier::rectify(cv::Mat3b& picture) const {
 }
 
 void Rectifier::rectify(cv::Mat1i& ids) const {
-  if (is_pinhole()) return;
+  if (is_pinhole() || ids.empty()) return;
   cv::Mat1i straight;
   cv::remap(ids, straight, map_x_, map_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, -1);
   ids = straight;

@@ -172,8 +172,9 @@ bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& 
   };
   remove_joints(true);  // its trajectory moves it
   mjsElement* key = nullptr;
-  if (actor.pose != scenario::kPoseZero && !(key = keyframe(spec, actor.pose))) {
-    std::vector<std::string> known{scenario::kPoseZero};
+  const bool is_keyframe = !actor.walks() && actor.pose != scenario::kPoseZero;
+  if (is_keyframe && !(key = keyframe(spec, actor.pose))) {
+    std::vector<std::string> known{scenario::kPoseZero, scenario::kPoseWalking};
     for_each(spec, mjOBJ_KEY, [&](mjsElement* e) { known.emplace_back(name_of(e)); });
     throw input::Error(
         actor.source, fmt::format("actor '{}' has the pose '{}', which is no keyframe of its file; "
@@ -215,14 +216,20 @@ bool has_picture(const scenario::Actor& actor) {
 Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader) {
   Fragment fragment;
   const std::filesystem::path file = scenario::actor_file(actor);
-  const bool has_keyframe = !actor.pose.empty() && actor.pose != scenario::kPoseZero;
+  const bool has_keyframe =
+      !actor.pose.empty() && actor.pose != scenario::kPoseZero && !actor.walks();
   fragment.spec = reader.read(file, actor.source, SpecReader::Part::fragment,
                               [&](Element& root, bool is_model) {
                                 if (!is_model) paint(root, actor);
                                 if (has_keyframe) split_free_joints(root);
                               });
   fragment.base = &check_base(*fragment.spec, reader, file);
-  if (!actor.pose.empty()) fragment.is_frozen = freeze(fragment, actor, reader);
+  if (actor.walks()) {
+    freeze(fragment, actor, reader);
+    check_walker(*fragment.base, reader);
+  } else if (!actor.pose.empty()) {
+    fragment.is_frozen = freeze(fragment, actor, reader);
+  }
   const Vector3d natural_m = check_actor(fragment, reader);
   fragment.size_m = actor.size_m.value_or(natural_m);
   if (actor.shape == Shape::cylinder && fragment.size_m.x() != fragment.size_m.y()) {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/scene/gait.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -224,6 +226,41 @@ Vector3d check_actor(const Fragment& actor, const SpecReader& reader) {
       numeric ? fmt::format("'{}' is not", fmt::join(values, values + count, " "))
               : std::string("this one does not"));
   reader.refuse(numeric ? numeric : actor.base->element, remedy);
+}
+
+void check_walker(const mjsBody& base, const SpecReader& reader) {
+  const auto child = [&](const mjsBody& parent, const std::string& name) -> const mjsBody& {
+    const mjsBody* found = nullptr;
+    for_each_in(parent, mjOBJ_BODY, false, [&](mjsElement* e) {
+      if (name_of(e) == name) found = mjs_asBody(e);
+    });
+    if (!found) {
+      reader.refuse(parent.element, fmt::format("TAG of a walker has no body '{}'; give it one "
+                                                "(scenes/README.md, 'Rovers and actors')",
+                                                name));
+    }
+    if (!pose_in_body(found->element).R.isIdentity(kTolerance)) {
+      reader.refuse(found->element,
+                    "TAG of a walker is turned when its joints are at zero; let its "
+                    "axes be those of 'base'");
+    }
+    return *found;
+  };
+  const auto hanging = [&](const mjsBody& parent, const std::string& name) -> const mjsBody& {
+    const mjsBody& found = child(parent, name);
+    const Vector3d p = pose_in_body(found.element).p;
+    if (p.head<2>().isZero(kTolerance) && p.z() < 0) return found;
+    reader.refuse(found.element,
+                  fmt::format("TAG of a walker is at ({:g}, {:g}, {:g}); put it right below its "
+                              "parent, at (0, 0, z) with z below 0",
+                              p.x(), p.y(), p.z()));
+  };
+  const mjsBody& trunk = child(base, Gait::kTrunk);
+  for (const std::string side : Gait::kSides) {
+    hanging(hanging(child(trunk, side + Gait::kLeg[0]), side + Gait::kLeg[1]),
+            side + Gait::kLeg[2]);
+    hanging(child(trunk, side + Gait::kArm[0]), side + Gait::kArm[1]);
+  }
 }
 
 void check_rover(const Fragment& rover, const SpecReader& reader) {

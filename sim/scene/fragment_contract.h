@@ -13,6 +13,8 @@ mjsBody& check_base(const mjSpec& spec, const SpecReader& reader,
                     const std::filesystem::path& file);
 /// \return the size that the file states.
 Eigen::Vector3d check_actor(const Fragment& actor, const SpecReader& reader);
+/// \param base whose joints are at zero: the bodies in it are those that `Gait` moves.
+void check_walker(const mjsBody& base, const SpecReader& reader);
 void check_rover(const Fragment& rover, const SpecReader& reader);
 ///@}
 

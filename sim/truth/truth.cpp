@@ -18,7 +18,7 @@ constexpr double kInFront = 1e-6;
 
 /// The surface that a corner lies on.
 struct Surface {
-  int object = -1;
+  int object = -1, carrier = -1;
   float depth_m = std::numeric_limits<float>::infinity();
 };
 
@@ -44,7 +44,7 @@ Surface nearest_3x3(const FrameTruth& truth, const Eigen::Vector2f& corner) {
   Surface nearest;
   visit_about(corner, 1, truth.depth_m.size(), [&](const cv::Point& pixel, int) {
     const float depth = truth.depth_m(pixel);
-    if (depth < nearest.depth_m) nearest = {truth.object(pixel), depth};
+    if (depth < nearest.depth_m) nearest = {truth.object(pixel), truth.carrier()(pixel), depth};
   });
   return nearest;
 }
@@ -58,6 +58,13 @@ bool is_beside_mover(const FrameTruth& truth, const std::vector<char>& moves,
     const int object = truth.object(pixel);
     found |= distance2 <= kCircle_px2 && object >= 0 && moves[static_cast<std::size_t>(object)];
   });
+  return found;
+}
+
+bool is_at_shadow_edge(const FrameTruth& truth, const Eigen::Vector2f& corner) {
+  bool found = false;
+  visit_about(corner, 0, truth.shadow_edge.size(),
+              [&](const cv::Point& pixel, int) { found = truth.shadow_edge(pixel) != 0; });
   return found;
 }
 
@@ -101,19 +108,18 @@ Pose between(const Pose& a, const Pose& b, double share) {
 CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Way& way,
                   const Eigen::Vector2f& corner, double min_depth_m, const Optics* picture) {
   CornerTruth result;
-  const std::vector<char>& moves = way.moves();
   const bool is_bent = picture && !picture->is_pinhole();
   const Eigen::Vector2f place =
       is_bent ? picture->project(camera.back_project(corner.cast<double>(), 1)).cast<float>()
               : corner;
   const Surface surface = nearest_3x3(truth, place);
-  if (surface.object < 0) return result;
+  if (surface.object < 0 || is_at_shadow_edge(truth, place)) return result;
   result.object = surface.object;
   result.depth_m = surface.depth_m;
 
   const Eigen::Vector2d x = corner.cast<double>();
   const Eigen::Vector3d p_C = camera.back_project(x, result.depth_m);
-  const std::size_t id = static_cast<std::size_t>(surface.object);
+  const std::size_t id = static_cast<std::size_t>(surface.carrier);
   const double row = place.y();
   const auto row_of = [&](const Eigen::Vector3d& p_N) {
     return is_bent ? picture->project(p_N).y() : camera.project(p_N).y();
@@ -123,7 +129,7 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Way& way
   const double fixed_row = way.next_row(0, p_W, row, row_of);
   const Eigen::Vector3d fixed_N = way.in_next(0, p_W, row, fixed_row);
   const Eigen::Vector3d carried_N =
-      moves.at(id) ? way.in_next(id, p_W, row, way.next_row(id, p_W, row, row_of)) : fixed_N;
+      way.moves(id) ? way.in_next(id, p_W, row, way.next_row(id, p_W, row, row_of)) : fixed_N;
 
   const auto motion = [&](const Eigen::Vector3d& p_N) -> Eigen::Vector2d {
     if (p_N.z() < kInFront * result.depth_m) {
@@ -134,9 +140,9 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Way& way
   result.static_motion_px = motion(fixed_N);
   result.motion_px = motion(carried_N);
 
-  if (!moves[id]) {
+  if (!way.any_moves(static_cast<std::size_t>(surface.object))) {
     result.label = Label::fixed;
-    result.outline = is_beside_mover(truth, moves, place);
+    result.outline = is_beside_mover(truth, way.any_moves(), place);
   } else if ((result.motion_px - result.static_motion_px).norm() >= kDistinctPx) {
     result.label = Label::rebel;
     const Pose T_NC = way.in_next(0, T_WC, row, fixed_row);
@@ -180,6 +186,11 @@ Way::Way(const FrameTruth& truth, int height_px) : rolls_(!truth.now_rows.at.emp
     const Readout still;
     T_WO_.push_back(at_rows(moves(id) ? truth.now_rows : still, truth.now.T_WO[id], object));
     next_T_WO_.push_back(at_rows(moves(id) ? truth.next_rows : still, truth.next.T_WO[id], object));
+  }
+  any_moves_ = moves_;
+  const std::size_t objects = moves_.size() - truth.limb_objects.size();
+  for (std::size_t i = 0; i < truth.limb_objects.size(); ++i) {
+    any_moves_.at(static_cast<std::size_t>(truth.limb_objects[i])) |= moves_[objects + i];
   }
 }
 

@@ -24,6 +24,7 @@ struct Object {
 };
 
 /// Poses at one time. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world (identity).
+/// After those of all objects come those of their limbs, see `FrameTruth::carrier`.
 struct Snapshot {
   Pose T_WC;
   std::vector<Pose> T_WO;
@@ -43,11 +44,24 @@ struct FrameTruth {
   /// Per pixel: id of an object, 0 for the fixed setting (floor, walls), -1 for pixels without a
   /// landmark (sky, the rover itself).
   cv::Mat1i object;
+  /// \name Limbs: rigid parts of objects, each with a motion of its own. Without limbs both are
+  /// empty.
+  ///@{
+  cv::Mat1i part;                 ///< as `carrier()`
+  std::vector<int> limb_objects;  ///< ids of the objects whose limbs have the last poses of `T_WO`
+  ///@}
+  /// Per pixel: 1 within `kShadowEdge_px` of the edge of a shadow, which moves as neither the
+  /// surface that it lies on nor the body that casts it; empty without shadows.
+  cv::Mat1i shadow_edge;
   Snapshot now;                                         ///< at frame k
   Snapshot next;                                        ///< at frame k+1, also for the last frame
   Readout now_rows, next_rows;                          ///< of a rolling shutter
   Eigen::Vector3d v_WC_mps = Eigen::Vector3d::Zero();   ///< velocity of the camera, in W
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();  ///< body rate of the camera, in C
+
+  /// Per pixel: index in `T_WO` of the rigid body that carries the pixel's surface; as `object`,
+  /// but for limbs.
+  const cv::Mat1i& carrier() const { return part.empty() ? object : part; }
 };
 
 /// The way of points from the rows of frame k to the rows of frame k+1, whose times differ with a
@@ -57,8 +71,11 @@ class Way {
   /// \param height_px of the picture.
   Way(const FrameTruth& truth, int height_px);
 
-  /// Whether a body moves from k to k+1.
+  /// Whether a body moves from k to k+1. `object` here and below may be a limb's index in `T_WO`.
   bool moves(std::size_t object) const { return moves_.at(object) != 0; }
+  /// Whether an object or any of its limbs moves.
+  bool any_moves(std::size_t object) const { return any_moves_.at(object) != 0; }
+  const std::vector<char>& any_moves() const { return any_moves_; }
   const std::vector<char>& moves() const { return moves_; }
   /// \name Poses at the time of a row of frame k.
   ///@{
@@ -96,18 +113,22 @@ class Way {
   static Pose pose_at(const Poses& poses, double row);
 
   bool rolls_;
-  std::vector<char> moves_;
+  std::vector<char> moves_, any_moves_;
   Poses T_WC_, next_T_WC_;
   std::vector<Poses> T_WO_, next_T_WO_;  ///< by object
 };
 
 enum class Label {
-  none,   ///< on the sky or the rover: no landmark, excluded from every count
-  fixed,  ///< its body does not move between k and k+1 ("static")
-  /// Its body moves, but |u - u_s| < 1 px.
+  /// On the sky, the rover or the edge of a shadow: no landmark, excluded from every count.
+  none,
+  fixed,  ///< its object does not move between k and k+1 ("static"), nor does a limb of it
+  /// Its object moves, but |u - u_s| < 1 px.
   indistinct,
-  rebel,  ///< its body moves, and |u - u_s| >= 1 px
+  rebel,  ///< its object moves, and |u - u_s| >= 1 px
 };
+
+/// Corners this near to the edge of a shadow have label `none`: FAST's circle may contain it.
+inline constexpr int kShadowEdge_px = 3;
 
 /// Whether a body moves between k and k+1: by more than 0.01 mm or 0.01 mrad. That is far below
 /// what an image resolves and far above the creep of a body that rests on contacts.
@@ -147,7 +168,7 @@ struct ObjectTruth {
   /// Visible share of the full silhouette, which extends beyond the image; 0 if the body reaches
   /// behind the camera, where its silhouette is unbounded. Areas are those in a pinhole's image.
   double visible_fraction = 0;
-  bool moving = false;  ///< its pose at k+1 differs from that at k
+  bool moving = false;  ///< its pose at k+1, or that of a limb, differs from that at k
   Runs mask;            ///< its pixels within the box; empty if unknown
 };
 

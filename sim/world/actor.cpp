@@ -26,12 +26,14 @@ double distance(const Line& line, double t) {
 }
 
 PlanarPose at(const Still& still, const PlanarPose& home, double) {
-  return {still.position_m.value_or(home.position_m), still.heading_rad.value_or(home.heading_rad)};
+  return {still.position_m.value_or(home.position_m), still.heading_rad.value_or(home.heading_rad),
+          0};
 }
 
 PlanarPose at(const Line& line, const PlanarPose& home, double t) {
   const double heading = line.heading_rad.value_or(home.heading_rad);
-  return {line.from_m.value_or(home.position_m) + distance(line, t) * direction(heading), heading};
+  const double walked_m = distance(line, t);
+  return {line.from_m.value_or(home.position_m) + walked_m * direction(heading), heading, walked_m};
 }
 
 /// Heading of the leg that ends at waypoint `end`. For a pause: of the last moving leg before it,
@@ -59,14 +61,19 @@ PlanarPose at(const Waypoints& waypoints, const PlanarPose& home, double t) {
   const Waypoint& a = points[end - 1];
   const Waypoint& b = points[end];
   const double share = std::clamp((t - a.at_s) / (b.at_s - a.at_s), 0.0, 1.0);
+  double walked_m = share * (b.position_m - a.position_m).norm();
+  for (std::size_t i = 1; i < end; ++i) {
+    walked_m += (points[i].position_m - points[i - 1].position_m).norm();
+  }
   return {a.position_m + share * (b.position_m - a.position_m),
-          heading_on(points, end, home.heading_rad)};
+          heading_on(points, end, home.heading_rad), walked_m};
 }
 
 PlanarPose at(const Circular& circle, const PlanarPose&, double t) {
   const double angle = circle.start_angle_rad + circle.speed_mps / circle.radius_m * t;
   const double ahead = circle.speed_mps < 0 ? -std::numbers::pi / 2 : std::numbers::pi / 2;
-  return {circle.centre_m + circle.radius_m * direction(angle), angle + ahead};
+  return {circle.centre_m + circle.radius_m * direction(angle), angle + ahead,
+          std::abs(circle.speed_mps) * t};
 }
 
 }  // namespace

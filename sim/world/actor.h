@@ -14,6 +14,7 @@ namespace lcs::sim {
 struct PlanarPose {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
+  double walked_m = 0;  ///< along the trajectory since its start
 };
 
 /// Pose on a trajectory, `seconds` after its start trigger. Before the trigger: the first point.

@@ -48,7 +48,8 @@ void Passage::pass_frame() {
     }
     if (t_ns >= 0) advance_to(t_ns);
     frame_.stages.push_back(t_ns >= 0 ? world_.stage() : world_.stage_before(t_ns));
-    frame_.snapshots.push_back(world_.snapshot_of(frame_.stages.back()));
+    frame_.snapshots.push_back(t_ns >= 0 ? world_.snapshot()
+                                         : world_.snapshot_of(frame_.stages.back()));
   }
   take_until(frame_ns, early_instants_, frame_.event_instants);
 }

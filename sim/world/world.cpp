@@ -286,6 +286,7 @@ void World::find_objects() {
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const int object = object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])];
     object_of_geom_.push_back(object);
+    carrier_of_geom_.push_back(object);
     if (object > 0 && (m.geom_type[geom] == mjGEOM_PLANE || m.geom_type[geom] == mjGEOM_HFIELD)) {
       const std::string& body = objects_[static_cast<std::size_t>(object - 1)].name;
       refuse(body, fmt::format("body '{}' has a plane or height field; these are setting: put them "
@@ -319,7 +320,25 @@ void World::find_actors() {
     actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
                        about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
                        actor.trajectory, Trigger(actor.start), actor.name});
+    if (actor.walks()) {
+      actors_.back().gait.emplace(model_, actor.name + "/");
+      find_limbs(actor, body);
+    }
     place(actors_.back(), pose_on(actor.trajectory, home, 0));
+  }
+}
+
+/// Each body below that of a walker carries its geoms with a motion of its own.
+void World::find_limbs(const scenario::Actor& actor, int body) {
+  const mjModel& m = model_.m();
+  const int object = std::ranges::find(objects_, actor.name, &Object::name)->id;
+  for (int limb = body + 1; limb < m.nbody && m.body_rootid[limb] == body; ++limb) {
+    for (int i = 0; i < m.body_geomnum[limb]; ++i) {
+      carrier_of_geom_[static_cast<std::size_t>(m.body_geomadr[limb] + i)] =
+          static_cast<int>(object_bodies_.size());
+    }
+    object_bodies_.push_back(limb);
+    limb_objects_.push_back(object);
   }
 }
 
@@ -400,6 +419,7 @@ void World::place(const MovingActor& actor, const PlanarPose& pose) {
   q[1] = attitude.x();
   q[2] = attitude.y();
   q[3] = attitude.z();
+  if (actor.gait) actor.gait->place(model_.m(), pose.walked_m);
 }
 
 void World::move_actors() {

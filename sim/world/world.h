@@ -18,6 +18,7 @@
 #include "scenarios/scenario.h"
 #include "sim/camera/drawables.h"
 #include "sim/imu/imu_noise.h"
+#include "sim/scene/gait.h"
 #include "sim/scene/model.h"
 #include "sim/scene/scene_builder.h"
 #include "sim/simulation.h"
@@ -64,10 +65,14 @@ class World {
   const std::optional<scenario::Origin>& origin() const { return origin_; }
 
   const std::vector<Object>& objects() const { return objects_; }
-  /// Body of an object; index 0 is the world.
+  /// Body of an object; index 0 is the world. Or of a limb, by its index in `Snapshot::T_WO`.
   int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
+  /// As `FrameTruth::limb_objects`.
+  const std::vector<int>& limb_objects() const { return limb_objects_; }
   /// The value of FrameTruth::object for pixels of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
+  /// The value of FrameTruth::carrier for pixels of a geom.
+  int carrier_of_geom(int geom) const { return carrier_of_geom_[static_cast<std::size_t>(geom)]; }
   /// Whether the camera can see a geom: its group is chosen, and it is not transparent.
   bool is_drawn(int geom) const { return is_drawn_[static_cast<std::size_t>(geom)] != 0; }
   const GeomGroups& groups() const { return groups_; }
@@ -113,6 +118,7 @@ class World {
     std::string name;
     double nearest_m = std::numeric_limits<double>::infinity();  ///< to the rover, between origins
     bool has_moved = false;
+    std::optional<Gait> gait = std::nullopt;
   };
 
   struct Loaded {
@@ -125,6 +131,7 @@ class World {
   void find_objects();
   void place_imu();
   void find_actors();
+  void find_limbs(const scenario::Actor& actor, int body);
   void begin_watch(WrongStart wrong_start);
   void note_looks(const Drawables& drawables);
   void end_watch();
@@ -147,7 +154,8 @@ class World {
   std::vector<MovingActor> actors_;
   std::vector<Object> objects_;
   std::vector<int> object_bodies_;
-  std::vector<int> object_of_geom_;
+  std::vector<int> object_of_geom_, carrier_of_geom_;
+  std::vector<int> limb_objects_;
   GeomGroups groups_{};
   std::vector<char> is_drawn_;  ///< by geom
   std::unique_ptr<Watch> watch_;

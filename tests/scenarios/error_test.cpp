@@ -164,11 +164,28 @@ INSTANTIATE_TEST_SUITE_P(
               "4: odometry.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("KeyOfACalibration", "camera: {fx: 458}\n",
               "4: unknown key 'fx'; give camera.focal: [fx, fy]"),
-        added("SensorThatIsNot", "camera: {auto_exposure: true}\n",
-              "4: unknown key 'auto_exposure'; the simulator has none of it "
+        added("SensorThatIsNot", "camera: {lens_flare_intensity: 0.1}\n",
+              "4: unknown key 'lens_flare_intensity'; the simulator has none of it "
               "(scenarios/README.md, 'What the simulator has, and has not'); remove it"),
         added("KeyOfAnotherSimulator", "camera: {readout_time: 20 ms}\n",
               "4: unknown key 'readout_time'; give camera.rolling_shutter"),
+        added("ExposureOfAnotherMap", "camera: {auto_exposure: true}\n",
+              "4: unknown key 'auto_exposure'; give image.auto_exposure"),
+        added("ShadowsWithHeadlights",
+              "image:\n  shadows: true\n  headlights: {intensity: 3000 cd}\n",
+              "6: image.headlights light places that the shadows of other lights leave dark, which "
+              "the simulator does not draw; remove them, or image.shadows"),
+        added("GainOutOfItsBounds", "image:\n  gain: 4\n  auto_exposure: {gain: [8, 16]}\n",
+              "6: image.auto_exposure.gain is [8, 16] without the 4 of image.gain, which the first "
+              "picture has; give [least, most] round it"),
+        added("ExposuresFromMostToLeast", "image:\n  auto_exposure: {exposure: [10 ms, 0.1 ms]}\n",
+              "5: image.auto_exposure.exposure is [0.01, 0.0001] without the 0.001 of "
+              "image.exposure, which the first picture has; give [least, most] round it"),
+        added(
+            "ExposureThatSmearsAndChanges",
+            "image: {auto_exposure: {exposure: [0.1 ms, 10 ms]}}\ncamera: {exposure: 5 ms}\n",
+            "4: image.auto_exposure.exposure changes the exposure, and camera.exposure smears for "
+            "a constant time; remove one of them (without the first the gain alone changes)"),
         added("KeyOfAnotherMap", "accelerometer_noise_density: 2e-3\n",
               "4: unknown key 'accelerometer_noise_density'; give imu.accelerometer_noise_density"),
         added("ShutterLongerThanAFrame",
@@ -305,9 +322,8 @@ INSTANTIATE_TEST_SUITE_P(
         added("NeitherShapeNorBody", "actors:\n  a: {trajectory: {still: {}}}\n",
               "5: actors.a needs 'shape' or 'body'; add it (scenarios/README.md shows how)"),
         added("UnknownShape", "actors:\n  a: {shape: ball, trajectory: {still: {}}}\n",
-              "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car or the path of an "
-              ".xml "
-              "file"),
+              "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car, walker or the path "
+              "of an .xml file"),
         added("NoOwnShape", "actors:\n  a: {shape: truck.xml, trajectory: {still: {}}}\n",
               "5: actors.a.shape: there is no file truck.xml; give its path relative to the "
               "scenario file"),

@@ -736,6 +736,42 @@ TEST_F(GenerateInParts, PartsByOtherProcessesInAnyOrderAreTheSameBytes) {
   EXPECT_TRUE(bytes_in(home_.path() / "jobs") == whole);
 }
 
+/// Each exposure depends on the picture before it, which a part that begins later renders, too.
+TEST_F(GenerateInParts, ExposuresAreThoseOfTheSimulationWhateverMakesThem) {
+  const auto make = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"generate",
+                                 LCS_SCENARIOS_DIR "/examples/walkers.yaml",
+                                 "--frames",
+                                 "4",
+                                 "--formats",
+                                 "tum",
+                                 "--set",
+                                 "camera.size=[160, 120]",
+                                 "--quiet",
+                                 "--out",
+                                 home_.path() / name};
+    all.insert(all.end(), more.begin(), more.end());
+    const CommandResult result = run_lcs(all, {.folder = home_.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  make("whole", {});
+  make("parts", {"--shard", "2/2"});
+  make("parts", {"--shard", "1/2"});
+  make("parts", {});
+  EXPECT_TRUE(bytes_in(home_.path() / "whole") == bytes_in(home_.path() / "parts"));
+  std::string expected = "#timestamp [ns],exposure [s],gain []\n";
+  sim::Simulation simulation(
+      scenario::load(LCS_SCENARIOS_DIR "/examples/walkers.yaml",
+                     {.sets = {"camera.size=[160, 120]", "frames=4"}, .seed = {}}));
+  while (const auto o = simulation.next()) {
+    expected +=
+        fmt::format("{},{},{}\n", kEpoch_ns + o->t_ns, o->exposure.time_s, o->exposure.gain);
+  }
+  EXPECT_EQ(read_file(home_.path() / "whole" / "mav0/cam0/exposure.csv"), expected);
+  EXPECT_NE(read_file(home_.path() / "whole" / "README.md").find("exposure.csv"),
+            std::string::npos);
+}
+
 TEST_F(GenerateInParts, WhatIsWrongWithItsWorldIsToldOnceHoweverManyProcessesMakeIt) {
   const std::vector<std::string> into{
       "--set",

@@ -275,8 +275,37 @@ TEST_F(OwnActor, OfAnArticulatedModelKeepsThePoseAskedFor) {
   EXPECT_NEAR((large_high - 2 * high).norm(), 0, 1e-6) << large_high.transpose();
   auto s = posed("sit", natural);
   s.actors[0].source = {"test.yaml", 9};
-  expect_refused(s, "test.yaml", 9, {"'sit'", "zero, d/home"});
+  expect_refused(s, "test.yaml", 9, {"'sit'", "zero, walking, d/home"});
   expect_refused(posed("", natural), folder_ / "dog.xml", 3, {"an actor is one rigid body"});
+}
+
+TEST_F(OwnActor, WalksIfItHasTheBodiesOfAWalkerAtRestAndIsElseRefusedAtTheWrongOne) {
+  const auto limbs = [](const std::string& side, const std::string& shank) {
+    return "<body name='" + side + "_thigh'><joint axis='0 1 0'/><geom size='.1'/>\n<body name='" +
+           side + "_shank' " + shank + "><joint axis='0 1 0'/><geom size='.1'/><body name='" +
+           side + "_foot' pos='0 0 -.5'><geom size='.05'/></body></body></body><body name='" +
+           side + "_upper_arm'><body name='" + side + "_forearm' pos='0 0 -.3'/></body>\n";
+  };
+  const auto walker = [&](const std::string& right_shank, const std::string& trunk = "trunk") {
+    auto s = on_floor();
+    s.actors = {own_actor("truck", file({.inside = "<body name='" + trunk + "' pos='0 0 1'>" +
+                                                   limbs("left", "pos='0 0 -.5'") +
+                                                   limbs("right", right_shank) + "</body>"}))};
+    s.actors[0].pose = scenario::kPoseWalking;
+    return s;
+  };
+  const fs::path truck = folder_ / "truck.xml";
+  World world(walker("pos='0 0 -.5'"));
+  EXPECT_EQ(world.limb_objects(), std::vector<int>(11, 1));
+  EXPECT_EQ(world.warnings().of(Warning::joints_frozen).count, 0);
+  expect_refused(walker("pos='0 0 -.5'", "torso"), truck, 6, {"no body 'trunk'"});
+  expect_refused(walker("pos='.1 0 -.5'"), truck, 10,
+                 {"right_shank", "at (0.1, 0, -0.5)", "below 0"});
+  expect_refused(walker("pos='0 0 -.5' euler='0 10 0'"), truck, 10, {"right_shank", "turned"});
+  auto rigid = on_floor();
+  rigid.actors = {line_actor("ann", scenario::Shape::pedestrian, {4, 0}, 0, 1)};
+  rigid.actors[0].pose = scenario::kPoseWalking;
+  EXPECT_NE(scenario_error([&] { World of(rigid); }).find("no body 'trunk'"), std::string::npos);
 }
 
 TEST_F(OwnActor, SeveralOfOneFileStandBesideEachOtherEachInItsOwnColours) {

@@ -233,7 +233,7 @@ cv::Mat1b changed(const cv::Mat3b& a, const cv::Mat3b& b) {
 }
 
 TEST(Photograph, DropsOnTheLensStayWhereTheyAreFromFrameToFrame) {
-  Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
+  Rain rain(*rainy(0, 20).rain, camera(), 1);
   const std::vector<LensDrop> first = rain.lens_drops(0);
   ASSERT_EQ(first.size(), 20u);
   // lives last 4 s on average and at least 2 s: in 0.1 s one or two end, in 20 s all
@@ -261,10 +261,10 @@ TEST(Photograph, MoreDropsThanCanBeDrawnAreRefused) {
 }
 
 TEST(Photograph, DropsAreAFunctionOfTimeWhateverWasAskedBefore) {
-  Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
+  Rain rain(*rainy(0, 20).rain, camera(), 1);
   for (const double t_s : {0.0, 3.0, 3.0, 25.0, 1.0, 30.0}) {
     const std::vector<LensDrop> drops = rain.lens_drops(t_s);
-    const std::vector<LensDrop> anew = Rain(*rainy(0, 20).rain, 1e-3, camera(), 1).lens_drops(t_s);
+    const std::vector<LensDrop> anew = Rain(*rainy(0, 20).rain, camera(), 1).lens_drops(t_s);
     for (std::size_t i = 0; i < drops.size(); ++i) {
       EXPECT_EQ(drops[i].centre_px, anew[i].centre_px) << t_s;
       EXPECT_EQ(drops[i].radius_px, anew[i].radius_px) << t_s;
@@ -275,7 +275,7 @@ TEST(Photograph, DropsAreAFunctionOfTimeWhateverWasAskedBefore) {
 TEST(Photograph, DropsChangeThePictureWhereTheyLieAndNowhereElse) {
   const Image image = rainy(0, 10);
   const cv::Mat1b mask = changed(photograph(image, halves(), wall_at(3)), halves());
-  const std::vector<LensDrop> drops = Rain(*image.rain, 1e-3, camera(), 1).lens_drops(0);
+  const std::vector<LensDrop> drops = Rain(*image.rain, camera(), 1).lens_drops(0);
   const double soft_px = 0.001 * camera().focal_px / 0.08;
   EXPECT_GT(cv::countNonZero(mask), 200);
   for (int y = 0; y < mask.rows; ++y) {
@@ -297,7 +297,7 @@ TEST(Photograph, ADropShowsTheSceneUpsideDown) {
   int seen = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const cv::Mat3b wet = photograph(image, picture, wall_at(3), 0, seed);
-    for (const LensDrop& drop : Rain(*image.rain, 1e-3, camera(), seed).lens_drops(0)) {
+    for (const LensDrop& drop : Rain(*image.rain, camera(), seed).lens_drops(0)) {
       const cv::Point centre(drop.centre_px);
       const int off = static_cast<int>(drop.radius_px / 2);
       // near the horizon, so that the drop refracts both sides of it

@@ -295,6 +295,7 @@ TEST(ActorShape, HasTheNaturalSizeThatItStates) {
   EXPECT_NEAR((extent(actor(Shape::cylinder)) - Vector3d(0.5, 0.5, 0.8)).norm(), 0, 1e-3);
   EXPECT_NEAR((extent(actor(Shape::pedestrian)) - Vector3d(0.7, 0.56, 1.76)).norm(), 0, 0.03);
   EXPECT_NEAR((extent(actor(Shape::car)) - Vector3d(4.2, 1.8, 1.44)).norm(), 0, 0.03);
+  EXPECT_NEAR((extent(actor(Shape::walker)) - Vector3d(0.79, 0.57, 1.7)).norm(), 0, 0.03);
 }
 
 TEST(ActorShape, IsScaledToTheSizeAskedFor) {
@@ -387,7 +388,7 @@ TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
     EXPECT_TRUE(model) << entry.path() << ": " << message.data();
     EXPECT_STREQ(message.data(), "") << entry.path();
   }
-  EXPECT_EQ(files, 9);
+  EXPECT_EQ(files, 10);
 }
 
 TEST(Scene, ActorsOfOneShapeDoNotClash) {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
@@ -161,6 +162,63 @@ TEST(RollingShutter, HasTheTruthOfEachRowsTime) {
     ++compared;
   }
   EXPECT_GT(compared, 100);
+}
+
+/// The same of a fisheye: OpenCV projects the point for the time of every row, and the picture
+/// shows it in the row that it is in at that row's own time.
+TEST(RollingShutter, OfAFisheyeHasTheTruthThatOpenCvProjectsRowByRow) {
+  scenario::Scenario s = carried();
+  s.camera.rolling_shutter_s = kReadout_s;
+  s.camera.focal_px = Vector2d(90, 91);
+  s.camera.centre_px = Vector2d(79, 61);
+  s.camera.distortion =
+      scenario::Distortion{.equidistant = true, .coefficients = {-0.02, 0.006, -0.002, 0.0003}};
+  const Observation o = frame_of(s, 1);
+  const Path path(s.ego);
+  const sim::Drive driven = drive(s);
+  const Pinhole camera = driven.calibration.camera;
+  const cv::Matx33d K(90, 0, 79, 0, 91, 61, 0, 0, 1);
+  const cv::Vec4d D(-0.02, 0.006, -0.002, 0.0003);
+  const auto T_CW = [&](double t_s) {
+    return (path.at(t_s).T_WB * driven.calibration.T_BC).inverse();
+  };
+  int compared = 0;
+  double most_px = 0;
+  for (int y = 6; y < 114; y += 9) {
+    for (int x = 6; x < 154; x += 9) {
+      std::vector<cv::Point2d> ray{cv::Point2d(x, y)};
+      cv::fisheye::undistortPoints(ray, ray, K, D);
+      const std::vector<Eigen::Vector2f> corner{
+          camera.project(Vector3d(ray[0].x, ray[0].y, 1)).cast<float>()};
+      const CornerTruth truth =
+          label_corners(camera, o.truth, corner, 0.3, &driven.calibration.optics).at(0);
+      if (truth.label == Label::none || !truth.motion_px.allFinite()) continue;
+      const Vector3d p_W = T_CW(0.2 + kReadout_s * y / 120).inverse() *
+                           (truth.depth_m * Vector3d(ray[0].x, ray[0].y, 1));
+      const Vector3d goal = camera.back_project(corner[0].cast<double>() + truth.motion_px, 1);
+      std::vector<cv::Point2d> told{cv::Point2d(goal.x(), goal.y())};
+      cv::fisheye::distortPoints(told, told, K, D);
+      cv::Point2d last;
+      for (int row = 0; row < 120; ++row) {
+        const Vector3d p_C = T_CW(0.4 + kReadout_s * row / 120) * p_W;
+        if (p_C.z() < 0.05) break;
+        std::vector<cv::Point2d> seen;
+        cv::fisheye::projectPoints(std::vector{cv::Point3d(p_C.x(), p_C.y(), p_C.z())}, seen,
+                                   cv::Vec3d(0, 0, 0), cv::Vec3d(0, 0, 0), K, D);
+        // below its own row before, above it now: it is seen between the two
+        if (row > 0 && last.y >= row - 1 && seen[0].y < row) {
+          const double before = last.y - (row - 1), after = seen[0].y - row;
+          const cv::Point2d there = last + before / (before - after) * (seen[0] - last);
+          most_px = std::max(most_px, cv::norm(there - told[0]));
+          ++compared;
+          break;
+        }
+        last = seen[0];
+      }
+    }
+  }
+  EXPECT_GT(compared, 60);
+  EXPECT_LT(most_px, 2e-3);  // a straight way between two rows; corners are floats
 }
 
 /// The axis of a vertical pole at azimuth 0 is, at the time t, at tan(yaw(t)) f to the right.

@@ -44,7 +44,7 @@ void SimulatedFrames::label(FrameRecord& frame) {
                               scenario_.truth_min_depth_m, &simulation_.calibration().optics);
   });
   frame.object_truth = rectifier_.rectified(observation_->objects, truth.object);
-  rectifier_.rectify(truth.object);
+  for (cv::Mat1i* ids : {&truth.object, &truth.part, &truth.shadow_edge}) rectifier_.rectify(*ids);
   rectifier_.rectify(truth.depth_m);
 }
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "filter/detect/picture_noise.h"
@@ -289,7 +290,9 @@ py::array truth_of_points(const Truth& truth, const ArrayLike& points) {
 }
 
 py::array object_poses(const Truth& truth) {
-  const std::vector<sim::Pose>& poses = observation_of(truth).truth.now.T_WO;
+  const sim::FrameTruth& exact = observation_of(truth).truth;
+  const std::span poses(exact.now.T_WO.begin(),
+                        exact.now.T_WO.end() - std::ssize(exact.limb_objects));
   py::array_t<double> array({std::ssize(poses), py::ssize_t{4}, py::ssize_t{4}});
   double* to = array.mutable_data();
   for (const sim::Pose& pose : poses) {

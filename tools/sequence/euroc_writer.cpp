@@ -147,14 +147,23 @@ std::string picture_path(std::int64_t stamp_ns, std::size_t place) {
 }
 
 void PictureWriter::write(const FrameView& frame, FrameOutput& output) const {
-  const std::string path = picture_path(frame.stamp_ns, place_);
+  const std::string path = picture_path(frame.stamp_ns, info_.place);
   output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
   output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
+  const sim::Exposure& exposure = frame.now.exposure;
+  output.rows["exposures"] =
+      fmt::format("{},{},{}\n", frame.stamp_ns, exposure.time_s, exposure.gain);
 }
 
 std::vector<Document> PictureWriter::documents() const {
-  return {{fmt::format("mav0/{}/data.csv", camera_name(place_)),
-           {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+  const std::string folder = "mav0/" + camera_name(info_.place);
+  std::vector<Document> all{
+      {folder + "/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+  if (info_.scenario.image.auto_exposure) {
+    all.push_back({folder + "/exposure.csv",
+                   {{.text = "#timestamp [ns],exposure [s],gain []\n"}, {.stream = "exposures"}}});
+  }
+  return all;
 }
 
 std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info) {

@@ -33,7 +33,7 @@ constexpr const char* kScenarioFile = "scenario.yaml";
 std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
                                                 const GenerateOptions& options) {
   std::vector<std::unique_ptr<Writer>> writers;
-  writers.push_back(std::make_unique<PictureWriter>(info.place));
+  writers.push_back(std::make_unique<PictureWriter>(info));
   for (const std::string& name : options.formats) writers.push_back(format(name).make(info));
   return writers;
 }

@@ -24,6 +24,7 @@ std::string category_of(const scenario::Actor& actor) {
     case scenario::Shape::cylinder:
       return "cylinder";
     case scenario::Shape::pedestrian:
+    case scenario::Shape::walker:
       return "pedestrian";
     case scenario::Shape::car:
       return "car";

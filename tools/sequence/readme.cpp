@@ -127,6 +127,10 @@ constexpr const char* kPictures = R"(
 * `scenario.yaml`: the scenario, with the values of the command line. Its relative paths begin at the folder of the file that was given.
 )";
 
+constexpr const char* kExposures =
+    "* `mav0/cam0/exposure.csv`: exposure and gain of each picture, which the picture before it "
+    "has set.\n";
+
 constexpr const char* kObjects = R"(
 ## Objects
 
@@ -141,6 +145,7 @@ Ids are the same in all files:
 std::string readme_text(const SequenceInfo& info, const std::vector<std::string>& formats) {
   std::string text = head(info) + kPictures;
   text.insert(text.find("\n## Files"), rig_text(info));
+  if (info.scenario.image.auto_exposure) text += kExposures;
   for (const std::string& name : formats) text += format(name).readme;
   text += kObjects;
   for (const sim::Object& object : info.objects) {

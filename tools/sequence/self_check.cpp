@@ -69,7 +69,7 @@ std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vec
   };
   for (int row = y - 1; row <= y + 2; ++row) {
     for (int column = x - 1; column <= x + 2; ++column) {
-      if (truth.object(row, column) != truth.object(y, x)) return {};
+      if (truth.carrier()(row, column) != truth.carrier()(y, x)) return {};
     }
     if (!is_flat(w(x - 1, row), w(x, row), w(x + 1, row), w(x + 2, row))) return {};
   }
@@ -90,7 +90,7 @@ std::optional<double> plane_inverse_depth(const sim::Optics& camera, const sim::
   Eigen::Matrix<double, 16, 1> w;
   for (int i = 0; i < 16; ++i) {
     const cv::Point at(x - 1 + i % 4, y - 1 + i / 4);
-    if (truth.object(at) != truth.object(y, x)) return {};
+    if (truth.carrier()(at) != truth.carrier()(y, x)) return {};
     rays.row(i) = camera.ray(at.x, at.y).homogeneous();
     w[i] = 1 / static_cast<double>(truth.depth_m(at));
   }
@@ -139,15 +139,15 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
       const cv::Vec3w code = kitti_code(motion_px(y, x), seen(y, x) != 0);
       if (code[2] == 0) continue;
       const Vector2d goal = Vector2d(x, y) + decoded(code);
-      const int object = now.truth.object(y, x);
+      const int carrier = now.truth.carrier()(y, x);
       const auto there = cv::Point(static_cast<int>(goal.x()), static_cast<int>(goal.y()));
-      if (object < 0 || next.truth.object(there) != object) continue;
+      if (carrier < 0 || next.truth.carrier()(there) != carrier) continue;
       const std::optional<double> inverse_depth =
           camera.is_pinhole() ? flat_inverse_depth(next.truth, goal)
                               : plane_inverse_depth(camera, next.truth, goal);
       if (!inverse_depth) continue;
       const Vector3d p_N = camera.back_project(goal, 1 / *inverse_depth);
-      const auto id = static_cast<std::size_t>(object);
+      const auto id = static_cast<std::size_t>(carrier);
       const Vector3d p_O = after.T_WO(id, goal.y()).inverse() * (after.T_WC(goal.y()) * p_N);
       const Vector3d p_C = here.T_WC(y).inverse() * (here.T_WO(id, y) * p_O);
       const double distance = (camera.project(p_C) - Vector2d(x, y)).norm();

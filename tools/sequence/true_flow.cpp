@@ -83,7 +83,7 @@ TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
     }
     const sim::Pose T_WC = way.T_WC(y);
     const float* depth = truth.depth_m[y];
-    const int* object = truth.object[y];
+    const int* carrier = truth.carrier()[y];
     const int* surface = surface_id[y];
     cv::Vec2f* full = field.full_px[y];
     cv::Vec2f* ego = field.ego_px[y];
@@ -92,7 +92,7 @@ TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
     for (int x = 0; x < size.width; ++x) {
       full[x] = ego[x] = {kNan, kNan};
       seen[x] = ego_seen[x] = 0;
-      if (object[x] < 0) continue;
+      if (carrier[x] < 0) continue;
       const double w = 1 / static_cast<double>(depth[x]);
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
@@ -121,7 +121,7 @@ TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
         is_seen = next.holds(u, v) &&
                   (!is_real || next.shows(u, v, static_cast<float>(z / w), surface[x]));
       };
-      const auto id = static_cast<std::size_t>(object[x]);
+      const auto id = static_cast<std::size_t>(carrier[x]);
       move(0, ego[x], ego_seen[x], !carriers[id].moves);
       if (carriers[id].moves) {
         move(id, full[x], seen[x], true);

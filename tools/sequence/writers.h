@@ -10,15 +10,16 @@
 
 namespace lcs::sequence {
 
-/// Writes the pictures and their list, which every sequence has.
+/// Writes the pictures and their list, which every sequence has, and their exposures if these
+/// change.
 class PictureWriter : public Writer {
  public:
-  explicit PictureWriter(std::size_t place) : place_(place) {}
+  explicit PictureWriter(const SequenceInfo& info) : info_(info) {}
   void write(const FrameView& frame, FrameOutput& output) const override;
   std::vector<Document> documents() const override;
 
  private:
-  std::size_t place_;  ///< of the camera
+  SequenceInfo info_;
 };
 
 std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info);
