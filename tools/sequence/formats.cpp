@@ -104,7 +104,8 @@ Landmarks (`--formats landmarks`):
   fixed setting; -1: the sky or the rover itself, no landmark), the depth (z of C) of the nearest surface in the 3x3 pixels
   round it, its motion to frame k+1 in pixels, the motion that it would have if its object stood
   still, and its label: `fixed`; `rebel`: its object moves, and the two motions differ by 1 px or more;
-  `indistinct`: its object moves, and they do not; `none`: no landmark. `radial` is 1 for a rebel that
+  `indistinct`: its object moves, and they do not; `none`: no landmark, or within 3 px of
+  the edge of a shadow. `radial` is 1 for a rebel that
   moves as a static point at another depth would, to within 1 px. Empty where it is not defined.
 * `truth.jsonl`: the same and the boxes and masks of objects in the form of a run's own file, a JSON object a line: what
   `lcs replay` scores detectors by.
