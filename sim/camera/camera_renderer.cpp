@@ -81,7 +81,7 @@ double sum(const cv::Vec3b& colour) {
   return colour[0] + colour[1] + colour[2];
 }
 
-/// What rounding to grey levels can change the share of light of a pixel by.
+/// The most by which rounding to grey levels changes the share of light of a pixel.
 double rounding(const cv::Vec3b& even) {
   return 3 / std::max(sum(even), 1.0);
 }

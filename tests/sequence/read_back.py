@@ -1,9 +1,9 @@
 """Reads a generated sequence with the tools that it is meant for.
 
-Usage: read_back.py SEQUENCE RUN WORK
+Usage: read_back.py SEQUENCE RUN WORK EVENTS
 
 RUN is a folder of lcs run of the same scenario, whose truth.jsonl has the boxes; WORK is for the files
-that TrackEval wants.
+that TrackEval wants; EVENTS is a sequence of an event camera.
 """
 import configparser
 import csv
@@ -139,13 +139,27 @@ def read_calibration(sequence):
         "accelerometer_random_walk")), "PyYAML: Kalibr's four noise figures are numbers")
 
 
+def read_events(sequence):
+    import evlib
+
+    text, hdf5 = (evlib.load_events(str(sequence / name)).collect() for name in ("rpg/events.txt", "dsec/events.h5"))
+    count = sum(1 for _ in open(sequence / "rpg/events.txt"))
+    check(len(text) == len(hdf5) == count > 1000, "evlib: RPG's text and DSEC's HDF5 have all events")
+    check(text["x"].equals(hdf5["x"]) and text["y"].equals(hdf5["y"]), "evlib: both have them at the same pixels")
+    check((text["polarity"] > 0).equals(hdf5["polarity"] > 0), "evlib: both have them of the same polarity")
+    # evlib counts the times of HDF5 from the file's first millisecond
+    apart = (text["t"] - text["t"][0]) - (hdf5["t"] - hdf5["t"][0])
+    check(apart.dt.total_microseconds().abs().max() <= 1, "evlib: both have them at the same microsecond")
+
+
 def main():
-    sequence, run, work = map(pathlib.Path, sys.argv[1:])
+    sequence, run, work, events = map(pathlib.Path, sys.argv[1:])
     read_trajectories(sequence)
     read_boxes(sequence, run)
     read_masks(sequence, run)
     read_tracks(sequence, work)
     read_calibration(sequence)
+    read_events(events)
 
 
 main()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Usage: read_back.sh LCS SCENARIOS WORK
 #
-# Generates a sequence, installs evo, pycocotools and TrackEval in a separate folder, and reads the
-# sequence with them. Then makes a small data set with GNU parallel, as in the documentation. Exits
+# Generates sequences, installs evo, pycocotools, TrackEval and evlib in a separate folder, and reads the
+# sequences with them. Then makes a small data set with GNU parallel, as in the documentation. Exits
 # with 77, skipped, if the tools cannot be downloaded.
 set -euo pipefail
 lcs=$1 scenarios=$2 work=$3
@@ -18,12 +18,12 @@ install_tools() {
     skip "the tools need a virtual environment (Debian: python3-venv, which tools/test --all installs)"
   local log=$work/pip.log
   if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
-    --only-binary :all: evo pycocotools 'trackeval>=1.3' pillow pyyaml >"$log" 2>&1; then
+    --only-binary :all: evo pycocotools 'trackeval>=1.3' pillow pyyaml evlib >"$log" 2>&1; then
     cat "$log"
     if is_offline "$log"; then
       skip "the Python package registry is not reachable, so there are no tools to read with"
     fi
-    fail "pip does not install evo, pycocotools and trackeval"
+    fail "pip does not install evo, pycocotools, trackeval and evlib"
   fi
 }
 
@@ -48,5 +48,8 @@ spread
 "$lcs" generate "$scenarios/crossing.yaml" --frames $frames --out "$work/sequence" --quiet
 "$lcs" run "$scenarios/crossing.yaml" --set frames=$frames --out "$work/run" --no-video --quiet || [[ $? -eq 1 ]]
 install_tools
+# The HDF5 is written by the h5py that evlib brings.
+LCS_PYTHON=$work/venv/bin/python "$lcs" generate "$scenarios/crossing.yaml" --frames 3 --set events={} \
+  --formats events,dsec --out "$work/events" --quiet
 MPLBACKEND=agg HOME=$work "$work/venv/bin/python" "$here/read_back.py" "$work/sequence" "$work/run" \
-  "$work/tracks"
+  "$work/tracks" "$work/events"
