@@ -109,6 +109,10 @@ MotionFix MotionFinder::find(const Intrinsics& camera, const MotionField& told,
     // Wrong matches pull the first rounds far off; later rounds search closer.
     left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
   }
+  // Places of a billion focal lengths overflow: then nothing is known about the motion.
+  if (!fix.allFinite() || !covariance.allFinite()) {
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), velocity_covariance};
+  }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 

@@ -352,6 +352,21 @@ TEST_P(FilterWith, DegenerateCornersLeaveAFiniteState) {
   }
 }
 
+/// The squares of such places overflow in the fit of the motion, which is then left out.
+TEST(Filter, PlacesABillionFocalLengthsAwayLeaveFiniteEdges) {
+  Filter filter(
+      {.focal_px = 1, .centre_px = {0, 0}, .width_px = 2147483647, .height_px = 2147483647});
+  EgoMotion motion;
+  motion.dt_s = 0.1;
+  const std::vector<Eigen::Vector2f> corners{{1, 2}, {2e9F, 2e9F}};
+  for (int k = 0; k < 4; ++k) {
+    const Layers& layers = filter.step(corners, motion).layers;
+    for (const std::vector<Edge>* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+      for (const Edge& edge : *edges) EXPECT_TRUE(edge.predicted.allFinite()) << k;
+    }
+  }
+}
+
 TEST_P(FilterWith, RecoversAfterTenFramesWithoutCorners) {
   Scene scene(11);
   const auto frames = record(scene, 24);
