@@ -66,6 +66,7 @@ TEST(Objects, TheMaskOfAFrameHoldsIdsBeyondEightBits) {
 TEST(Objects, OnlyMasksOfEightBitsLimitTheirNumber) {
   scenario::Scenario scenario;
   scenario.scene = "store.xml";
+  scenario.events.emplace();
   const sim::Calibration calibration;
   const std::optional<scenario::Origin> origin;
   std::vector<sim::Object> objects(253);
