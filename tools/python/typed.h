@@ -41,7 +41,9 @@ using Answer = Typed<"Result | Detections | numpy.typing.ArrayLike">;
 
 }  // namespace lcs::python
 
+/// \cond  Doxygen does not know the namespace.
 template <lcs::python::TypeName kName>
 struct pybind11::detail::handle_type_name<lcs::python::Typed<kName>> {
   static constexpr auto name = const_name(kName.text);
 };
+/// \endcond
