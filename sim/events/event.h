@@ -1,5 +1,5 @@
 /// \file
-/// A change of light that a pixel of an event camera has told.
+/// A change of light that a pixel of an event camera reports.
 #pragma once
 
 #include <cstdint>
