@@ -135,6 +135,15 @@ void Observer::render(Observation& o) {
   CameraRenderer::blur(scenario_.image.shadows ? shaded : o.rendered, o.image);
 }
 
+/// The picture that the lens gets, and 1 near the edges of its shadows if there are any.
+void Observer::render_seen(cv::Mat3b& picture, cv::Mat1i& edge) {
+  if (scenario_.image.shadows) {
+    renderer_.render_shaded(picture, edge);
+  } else {
+    renderer_.render_colour(picture);
+  }
+}
+
 void Observer::show(const Stage& stage) {
   world_.show(stage);
   renderer_.update();
@@ -227,10 +236,10 @@ void Observer::sense_events(const FrameState& frame, Observation& o) {
   const Stage present = world_.stage();
   cv::Mat3b drawing;
   cv::Mat1f depth_m;
-  cv::Mat1i geom;
+  cv::Mat1i geom, edge;
   for (const std::size_t cell : chosen) {
     show(instants[cell].stage);
-    renderer_.render_colour(drawing);
+    render_seen(drawing, edge);
     if (photographer_.depends_on_depth()) renderer_.render_depth_and_geoms(depth_m, geom);
     CameraRenderer::blur(drawing, drawing);
     event_sensor_->see(photographer_.light(drawing, depth_m), instants[cell].t_ns, o.events);
@@ -264,11 +273,7 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
   }
   for (int i = 0; i < n; ++i) {
     show(frame.stages[Shutter::instant_of(i, n)]);
-    if (has_shadows) {
-      renderer_.render_shaded(seen, edge);
-    } else {
-      renderer_.render_colour(seen);
-    }
+    render_seen(seen, edge);
     const int rows = seen.rows;
     if (shutter.smears()) {
       if (light.empty()) light = cv::Mat3f::zeros(seen.size());

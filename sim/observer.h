@@ -41,6 +41,7 @@ class Observer {
  private:
   void render(Observation& o);
   void render_through_shutter(const FrameState& frame, Observation& o);
+  void render_seen(cv::Mat3b& picture, cv::Mat1i& edge);
   void show(const Stage& stage);
   template <class OnPoint>
   void visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "sim/camera/linear_light.h"
@@ -238,6 +241,24 @@ TEST(Shadow, OfALightThatIsToCastNoneIsRefused) {
   const std::string message = test::scenario_error([&] { Observer(s, WrongStart::refused); });
   EXPECT_NE(message.find("image.shadows"), std::string::npos) << message;
   EXPECT_NE(message.find("castshadow"), std::string::npos) << message;
+}
+
+/// The outline of a shadow passes pixels of the floor, which is even without it.
+TEST(Shadow, IsSeenByEventPixels) {
+  const auto events_of = [](bool has_shadows) {
+    scenario::Scenario s = lit(has_shadows);
+    s.ego.phases = {{.yaw_rate_radps = 0.3}};
+    s.events.emplace();
+    s.events->spread = s.events->refractory_s = s.events->leak_hz = s.events->shot_hz = 0;
+    return frame_of(s, 2).events;
+  };
+  const std::vector<Event> even = events_of(false), shaded = events_of(true);
+  std::set<std::pair<int, int>> without;
+  for (const Event& event : even) without.emplace(event.x, event.y);
+  const auto added = std::ranges::count_if(shaded, [&](const Event& event) {
+    return !without.contains({event.x, event.y});
+  });
+  EXPECT_GT(added, 100);
 }
 
 }  // namespace
