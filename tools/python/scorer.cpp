@@ -212,20 +212,20 @@ class Scorer {
       bench::RunInfo info = frame.run->info;
       info.detector = detector;
       detector_ = detector.name;
-      scorer_ = bench::Scorer(info);
+      scorer_.emplace(info);
     }
-    scorer_.add(record);
+    scorer_->add(record);
     run_ = frame.run;
   }
 
   /// The figures in the order of metrics.json.
   py::dict metrics() {
     py::dict figures;
-    for (const auto& [name, figure] : scorer_.metrics(world())) figures[name.c_str()] = figure;
+    for (const auto& [name, figure] : scorer_->metrics(world())) figures[name.c_str()] = figure;
     return figures;
   }
 
-  std::vector<std::string> warnings() { return bench::lines_of(scorer_.warned(world())); }
+  std::vector<std::string> warnings() { return bench::lines_of(scorer_->warned(world())); }
 
  private:
   std::optional<sim::Warnings> world() const { return run_ ? run_->info.warnings : std::nullopt; }
@@ -234,7 +234,7 @@ class Scorer {
     if (run_ && run_ != frame.run) {
       throw py::value_error("this frame is of another run; give each run a Scorer of its own");
     }
-    const int due = scorer_.frames();
+    const int due = scorer_->frames();
     const int index = frame.seen.record.index;
     if (index != due) {
       throw py::value_error(fmt::format(
@@ -258,7 +258,7 @@ class Scorer {
 
   std::shared_ptr<const Run> run_;  ///< null until a frame is added
   std::string detector_;
-  bench::Scorer scorer_{bench::RunInfo{}};
+  std::optional<bench::Scorer> scorer_{std::in_place, bench::RunInfo{}};
 };
 
 }  // namespace
