@@ -179,8 +179,10 @@ struct CameraRenderer::Impl {
   void start() {
     std::string problem;
     try {
-      mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
-      mjr_setBuffer(mjFB_OFFSCREEN, &context);
+      call_mujoco([&] {
+        mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
+        mjr_setBuffer(mjFB_OFFSCREEN, &context);
+      });
     } catch (const MujocoError& e) {
       problem = e.what();
     }
@@ -215,9 +217,11 @@ struct CameraRenderer::Impl {
 
   void render(float* depth) {
     gl.make_current();
-    mjr_setBuffer(mjFB_OFFSCREEN, &context);
-    mjr_render(viewport(), &scene, &context);
-    mjr_readPixels(rgb.data(), depth, viewport(), &context);
+    call_mujoco([&] {
+      mjr_setBuffer(mjFB_OFFSCREEN, &context);
+      mjr_render(viewport(), &scene, &context);
+      mjr_readPixels(rgb.data(), depth, viewport(), &context);
+    });
   }
 
   // Read-back is bottom row first.

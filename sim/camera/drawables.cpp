@@ -61,7 +61,8 @@ Drawables::Drawables(Model& model, const GeomGroups& groups, int camera)
   std::fill(std::begin(option_.sitegroup), std::end(option_.sitegroup), mjtByte{0});
   camera_.type = mjCAMERA_FIXED;
   camera_.fixedcamid = camera;
-  mjv_makeScene(&model.m(), &scene_, static_cast<int>(model.m().ngeom) + 1);
+  const int geoms = static_cast<int>(model.m().ngeom) + 1;
+  call_mujoco([&] { mjv_makeScene(&model.m(), &scene_, geoms); });
   scene_.flags[mjRND_SHADOW] = 0;
   scene_.flags[mjRND_REFLECTION] = 0;
   scene_.flags[mjRND_FOG] = 0;
@@ -83,8 +84,10 @@ Drawables::~Drawables() {
 }
 
 void Drawables::collect(Model& model) {
-  mjv_updateScene(&model.m(), &model.d(), &option_, &perturb_, &camera_,
-                  mjCAT_STATIC | mjCAT_DYNAMIC, &scene_);
+  call_mujoco([&] {
+    mjv_updateScene(&model.m(), &model.d(), &option_, &perturb_, &camera_,
+                    mjCAT_STATIC | mjCAT_DYNAMIC, &scene_);
+  });
   // with a full buffer MuJoCo only warns, and then draws a part of the scene
   if (const std::string warning = take_warning(); !warning.empty()) {
     throw MujocoError(in_one_line(warning));

@@ -161,9 +161,9 @@ void Rectifier::rectify(double& left, double& top, double& right, double& bottom
   bottom = y_most->y + kEdge;
 }
 
-void Rectifier::rectify(cv::Mat3b& picture) const {
+void Rectifier::rectify(cv::Mat& picture) const {
   if (is_pinhole()) return;
-  cv::Mat3b straight;
+  cv::Mat straight;
   cv::remap(picture, straight, map_x_, map_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   picture = straight;
 }

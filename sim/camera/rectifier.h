@@ -26,7 +26,7 @@ class Rectifier {
 
   /// Removes corners outside the pinhole's picture, and those without a unique ray.
   void rectify(std::vector<Eigen::Vector2f>& corners_px) const;
-  void rectify(cv::Mat3b& picture) const;
+  void rectify(cv::Mat& picture) const;  ///< BGR or grey
   /// \name Truth of each pixel, by the nearest pixel; -1 and +inf where the picture shows nothing.
   ///@{
   void rectify(cv::Mat1i& ids) const;

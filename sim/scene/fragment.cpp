@@ -181,15 +181,19 @@ bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& 
                                   "choose one of {}",
                                   actor.name, actor.pose, fmt::join(known, ", ")));
   }
-  const std::unique_ptr<mjModel, ModelDeleter> model(mj_compile(&spec, nullptr));
+  mjModel* compiled = nullptr;
+  call_mujoco([&] { compiled = mj_compile(&spec, nullptr); });
+  const std::unique_ptr<mjModel, ModelDeleter> model(compiled);
   if (!model) throw reader.refusal(mjs_getError(&spec), &spec);
-  const std::unique_ptr<mjData, DataDeleter> data(mj_makeData(model.get()));
+  mjData* made = nullptr;
+  call_mujoco([&] { made = mj_makeData(model.get()); });
+  const std::unique_ptr<mjData, DataDeleter> data(made);
   if (!data) throw MujocoError("could not allocate the state of an actor");
   if (key) {
     mj_resetDataKeyframe(model.get(), data.get(),
                          mj_name2id(model.get(), mjOBJ_KEY, std::string(name_of(key)).c_str()));
   }
-  mj_kinematics(model.get(), data.get());
+  call_mujoco([&] { mj_kinematics(model.get(), data.get()); });
   const auto pose = [&](int body) {
     using Rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
     return Pose{Eigen::Map<const Rotation>(data->xmat + 9 * body),

@@ -1,6 +1,10 @@
 #include "sim/scene/model.h"
 
 #include <Eigen/Core>
+#include <array>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "sim/scene/limits.h"
@@ -10,8 +14,21 @@ namespace {
 
 thread_local std::string first_warning;
 
+/// \name Where an error of MuJoCo in this thread jumps to, null outside of `call_mujoco`, and its
+/// message. They are not local to the function, because a jump may lose changes of local variables.
+///@{
+thread_local std::jmp_buf* call_in_progress = nullptr;
+thread_local std::array<char, 1024> error_message{};
+///@}
+
 void on_error(const char* message) {
-  throw MujocoError(message);
+  if (call_in_progress != nullptr) {
+    std::snprintf(error_message.data(), error_message.size(), "%s", message);
+    std::longjmp(*call_in_progress, 1);  // NOLINT(cert-err52-cpp): over C frames alone
+  }
+  constexpr int kError = 2;  // as tools/lcs/exit_codes.h
+  std::fprintf(stderr, "error of MuJoCo: %s; please report it with the scenario\n", message);
+  std::_Exit(kError);
 }
 
 void on_warning(const char* message) {
@@ -30,18 +47,32 @@ void install_mujoco_handlers() {
   mju_user_warning = on_warning;
 }
 
+void call_mujoco(void (*calls)(const void*), const void* context) {
+  std::jmp_buf here;
+  std::jmp_buf* const outer = call_in_progress;
+  call_in_progress = &here;
+  const bool has_failed = setjmp(here) != 0;  // NOLINT(cert-err52-cpp)
+  if (!has_failed) calls(context);
+  call_in_progress = outer;
+  if (has_failed) throw MujocoError(error_message.data());
+}
+
 std::string take_warning() {
   return std::exchange(first_warning, {});
 }
 
 Model::Model(mjSpec& spec) {
   install_mujoco_handlers();
-  model_.reset(mj_compile(&spec, nullptr));
+  mjModel* model = nullptr;
+  call_mujoco([&] { model = mj_compile(&spec, nullptr); });
+  model_.reset(model);
   const std::string warning = take_warning();
   if (!model_) throw MujocoError(mjs_getError(&spec));
   if (!warning.empty()) throw MujocoError(warning);
   check_compiled(*model_);
-  data_.reset(mj_makeData(model_.get()));
+  mjData* data = nullptr;
+  call_mujoco([&] { data = mj_makeData(model_.get()); });
+  data_.reset(data);
   if (!data_) throw MujocoError("could not allocate the state of the scene");
 }
 

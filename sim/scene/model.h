@@ -19,9 +19,24 @@ class MujocoError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Makes MuJoCo throw `MujocoError` where it would print and wait for a key, and keep its warnings
-/// for `take_warning`. Process-wide. All code here that uses MuJoCo calls it.
+/// Makes MuJoCo report its errors to `call_mujoco`, and keep its warnings for `take_warning`.
+/// Process-wide. All code here that uses MuJoCo calls it.
 void install_mujoco_handlers();
+
+/// `call_mujoco` for a function with a context.
+void call_mujoco(void (*calls)(const void*), const void* context);
+
+/// Makes calls of MuJoCo that may fail, as in `call_mujoco([&] { mj_step(&m, &d); })`.
+///
+/// MuJoCo's error handler must not return, and an exception must not pass MuJoCo's C frames: the
+/// handler jumps back to this function (longjmp), which throws from its own C++ frame. MuJoCo's
+/// Python module does the same; an error outside of such calls ends the process with its message.
+/// \param calls of MuJoCo alone: the jump destroys no object that `calls` has made.
+/// \throws MujocoError with MuJoCo's message.
+template <class Calls>
+void call_mujoco(const Calls& calls) {
+  call_mujoco([](const void* context) { (*static_cast<const Calls*>(context))(); }, &calls);
+}
 
 /// The first warning that MuJoCo gave in this thread since the last call; empty without a warning.
 std::string take_warning();

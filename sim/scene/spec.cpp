@@ -188,7 +188,11 @@ Spec SpecReader::read(const std::filesystem::path& file, const input::Source& wh
   std::array<char, 2000> said{};
   Spec spec;
   try {
-    spec.reset(mj_parseXMLString(text.c_str(), &vfs, said.data(), static_cast<int>(said.size())));
+    mjSpec* parsed = nullptr;
+    call_mujoco([&] {
+      parsed = mj_parseXMLString(text.c_str(), &vfs, said.data(), static_cast<int>(said.size()));
+    });
+    spec.reset(parsed);
   } catch (const MujocoError& e) {
     throw refusal(e.what(), nullptr);
   }

@@ -126,7 +126,9 @@ class WheeledRover : public Rover {
     place(d, under.height_m + kDrop_m);
     std::fill_n(d.ctrl, m.nu, 0.0);
     m.opt.timestep = kSettlingStep_s;
-    for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
+    call_mujoco([&] {
+      for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
+    });
 
     if (d.qpos[base_.qpos + 2] < under.height_m - sunk_m_) refuse_to_fall(model, under.geom);
     // settled height, roll and pitch, but the start position and heading, already rolling
@@ -194,7 +196,7 @@ class WheeledRover : public Rover {
   Footing footing(Model& model) const {
     mjData& d = model.d();
     place(d, 2 * kAbove_m);  // out of the ray
-    mj_kinematics(&model.m(), &d);
+    call_mujoco([&] { mj_kinematics(&model.m(), &d); });
     const std::array<double, 3> from = {ego_.start_m.x(), ego_.start_m.y(), kAbove_m};
     const std::array<double, 3> down = {0, 0, -1};
     int geom = -1;

@@ -37,7 +37,7 @@ constexpr double kActorInside_m =
 void check_extent(const ComposedScene& composed, Model& model) {
   const mjModel& m = model.m();
   if (m.stat.extent >= kLeastExtent_m && m.stat.extent <= kMostExtent_m) return;
-  mj_forward(&m, &model.d());
+  call_mujoco([&] { mj_forward(&m, &model.d()); });
   int farthest = 0;
   double distance_m = -1;
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -228,11 +228,11 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
   rover_ = make_rover(scenario_, model_);
   find_objects();
   guarded([&] {
-    mj_kinematics(&model_.m(), &model_.d());
+    call_mujoco([&] { mj_kinematics(&model_.m(), &model_.d()); });
     place_imu();
     find_actors();
     rover_->start(model_);
-    mj_kinematics(&model_.m(), &model_.d());
+    call_mujoco([&] { mj_kinematics(&model_.m(), &model_.d()); });
     forward();
     begin_watch(wrong_start);
   });
@@ -458,7 +458,7 @@ void World::forward() {
   model_.d().time = 1e-9 * static_cast<double>(t_ns_);
   rover_->command(model_, t_ns_);
   move_actors();
-  mj_forward(&model_.m(), &model_.d());
+  call_mujoco([&] { mj_forward(&model_.m(), &model_.d()); });
   rover_->accelerate(model_);
 }
 
@@ -498,7 +498,7 @@ void World::step_to(std::int64_t t_ns) {
     guarded([&] {
       const PlanarVelocity asked = rover_->command(model_, t_ns_);
       move_actors();
-      mj_step(&m, &model_.d());
+      call_mujoco([&] { mj_step(&m, &model_.d()); });
       if (t_ns_ <= event_time_ns(scenario_.frames - 1, scenario_.camera.rate_hz)) {
         watch_->look(model_, t_ns_, is_on_ground() ? std::optional(asked) : std::nullopt);
       } else {
@@ -524,7 +524,7 @@ ImuSample World::ideal_reading() {
                                                  gravity_mps2_ * Eigen::Vector3d::UnitZ());
   } else {
     Eigen::Matrix<mjtNum, 6, 1> motion;  // rotation, translation; acceleration includes gravity
-    mj_rnePostConstraint(&model_.m(), &model_.d());
+    call_mujoco([&] { mj_rnePostConstraint(&model_.m(), &model_.d()); });
     mj_objectAcceleration(&model_.m(), &model_.d(), mjOBJ_SITE, imu_site_, motion.data(), 1);
     reading.accel_mps2 = motion.tail<3>();
     mj_objectVelocity(&model_.m(), &model_.d(), mjOBJ_SITE, imu_site_, motion.data(), 1);
@@ -588,10 +588,12 @@ std::string World::saved(bool as_mjcf) {
   std::array<char, 1000> message{};
   if (as_mjcf) {
     mjSpec* spec = composed_.spec.get();
-    mj_copyBack(spec, &m);
-    mj_saveXML(spec, path.c_str(), message.data(), static_cast<int>(message.size()));
+    call_mujoco([&] {
+      mj_copyBack(spec, &m);
+      mj_saveXML(spec, path.c_str(), message.data(), static_cast<int>(message.size()));
+    });
   } else {
-    mj_saveModel(&m, path.c_str(), nullptr, 0);
+    call_mujoco([&] { mj_saveModel(&m, path.c_str(), nullptr, 0); });
   }
   std::string bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(file, 0, SEEK_END), 0)), '\0');
   const ssize_t read = ::pread(file, bytes.data(), bytes.size(), 0);
@@ -624,13 +626,17 @@ Stage World::stage_before(std::int64_t t_ns) {
   const mjModel& m = model_.m();
   mjData& d = model_.d();
   const std::vector<mjtNum> qpos(d.qpos, d.qpos + m.nq);
-  mj_integratePos(&m, d.qpos, d.qvel, 1e-9 * static_cast<double>(t_ns));
-  mj_kinematics(&m, &d);
-  mj_camlight(&m, &d);
+  call_mujoco([&] {
+    mj_integratePos(&m, d.qpos, d.qvel, 1e-9 * static_cast<double>(t_ns));
+    mj_kinematics(&m, &d);
+    mj_camlight(&m, &d);
+  });
   Stage before = stage();
   std::ranges::copy(qpos, d.qpos);
-  mj_kinematics(&m, &d);
-  mj_camlight(&m, &d);
+  call_mujoco([&] {
+    mj_kinematics(&m, &d);
+    mj_camlight(&m, &d);
+  });
   return before;
 }
 

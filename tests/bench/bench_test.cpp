@@ -8,6 +8,7 @@
 
 #include "filter/detect/describe.h"
 #include "scenarios/load.h"
+#include "tests/bench/recorded_run.h"
 #include "tools/bench/timed.h"
 #include "tools/scoring/scoring.h"
 
@@ -47,17 +48,18 @@ class BenchTest : public testing::Test {
       scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = {"frames=6"}, .seed = {}});
   sim::Simulation simulation_{scenario_};
   Alarmist detector_;
-  Recording recording_ = begin_recording(scenario_, simulation_);
+  Recording recording_{run_info(scenario_, simulation_), {}};
 };
 
 TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
   int seen = 0;
-  run(scenario_, simulation_, detector_, recording_,
-      [&](const FrameRecord& frame, const cv::Mat3b& image) {
-        EXPECT_EQ(frame.index, seen);
-        EXPECT_EQ(image.size(), cv::Size(scenario_.camera.width_px, scenario_.camera.height_px));
-        ++seen;
-      });
+  run_into(recording_, scenario_, simulation_, detector_,
+           [&](const FrameRecord& frame, const cv::Mat3b& image) {
+             EXPECT_EQ(frame.index, seen);
+             EXPECT_EQ(image.size(),
+                       cv::Size(scenario_.camera.width_px, scenario_.camera.height_px));
+             ++seen;
+           });
   EXPECT_EQ(seen, kFrames);
   ASSERT_EQ(recording_.frames.size(), std::size_t{kFrames});
   EXPECT_EQ(recording_.scenario, "crossing");
@@ -82,9 +84,11 @@ TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
 TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
   Alarmist other;
   detector_.want_signatures();
-  Recording of_other = begin_recording(scenario_, simulation_);
-  const FrameSink sink = [](const FrameRecord&, const cv::Mat3b&) {};
-  const Watcher both[] = {{detector_, recording_, sink}, {other, of_other, sink}};
+  Recording of_other;
+  const auto into = [](Recording& recording) {
+    return [&](const FrameRecord& frame, const cv::Mat3b&) { recording.frames.push_back(frame); };
+  };
+  const Watcher both[] = {{detector_, into(recording_)}, {other, into(of_other)}};
   run(scenario_, simulation_, both);
   for (std::size_t k = 0; k < recording_.frames.size(); ++k) {
     const FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
@@ -102,7 +106,7 @@ TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
 }
 
 TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
-  run(scenario_, simulation_, detector_, recording_, [](const FrameRecord&, const cv::Mat3b&) {});
+  run_into(recording_, scenario_, simulation_, detector_);
   const Metrics metrics = score(recording_);
   EXPECT_EQ(value(metrics, "rebel.recall"), 1);
   EXPECT_EQ(value(metrics, "rebel.object_recall"), 1);
@@ -124,7 +128,8 @@ TEST_F(BenchTest, WhatTheSinkThrowsEndsTheRun) {
   const auto stop_at_2 = [](const FrameRecord& frame, const cv::Mat3b&) {
     if (frame.index == 2) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(run(scenario_, simulation_, detector_, recording_, stop_at_2), std::runtime_error);
+  EXPECT_THROW(run_into(recording_, scenario_, simulation_, detector_, stop_at_2),
+               std::runtime_error);
   EXPECT_EQ(recording_.frames.size(), 3u);
 }
 
@@ -165,30 +170,31 @@ TEST(CornersOfEvents, AreOnTheOutlinesThatThePicturesShow) {
     sim::Simulation simulation(scenario);
     Alarmist detector;
     detector.want_signatures();
-    Recording recording = begin_recording(scenario, simulation);
-    run(scenario, simulation, detector, recording,
-        [&](const FrameRecord& frame, const cv::Mat3b& image) {
-          if (frame.index == 0) {
-            EXPECT_TRUE(frame.corners_px.empty());
-            return;
-          }
-          cv::Mat1b grey, edges;
-          cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-          cv::Canny(grey, edges, 30, 60);
-          cv::dilate(edges, edges, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}));
-          int on_edges = 0, moving = 0;
-          for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-            const cv::Point px(cvRound(frame.corners_px[i].x()), cvRound(frame.corners_px[i].y()));
-            on_edges += edges(px) != 0;
-            moving += frame.corner_truth[i].label == sim::Label::rebel;
-          }
-          const auto all = static_cast<double>(frame.corners_px.size());
-          EXPECT_GT(all, 20);
-          EXPECT_GT(on_edges, 0.9 * all);
-          EXPECT_GT(moving, 0);
-          EXPECT_LT(moving, all);
-          EXPECT_EQ(frame.signatures.size(), frame.corners_px.size());
-        });
+    Recording recording{run_info(scenario, simulation), {}};
+    run_into(recording, scenario, simulation, detector,
+             [&](const FrameRecord& frame, const cv::Mat3b& image) {
+               if (frame.index == 0) {
+                 EXPECT_TRUE(frame.corners_px.empty());
+                 return;
+               }
+               cv::Mat1b grey, edges;
+               cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+               cv::Canny(grey, edges, 30, 60);
+               cv::dilate(edges, edges, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}));
+               int on_edges = 0, moving = 0;
+               for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+                 const cv::Point px(cvRound(frame.corners_px[i].x()),
+                                    cvRound(frame.corners_px[i].y()));
+                 on_edges += edges(px) != 0;
+                 moving += frame.corner_truth[i].label == sim::Label::rebel;
+               }
+               const auto all = static_cast<double>(frame.corners_px.size());
+               EXPECT_GT(all, 20);
+               EXPECT_GT(on_edges, 0.9 * all);
+               EXPECT_GT(moving, 0);
+               EXPECT_LT(moving, all);
+               EXPECT_EQ(frame.signatures.size(), frame.corners_px.size());
+             });
     return recording;
   };
   const Recording first = run_once(), second = run_once();

@@ -9,6 +9,7 @@
 #include "filter/detect/fast.h"
 #include "filter/kinematics/geometry.h"
 #include "scenarios/load.h"
+#include "tests/bench/recorded_run.h"
 #include "tests/tools/refusal.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/ego_motion_feed.h"
@@ -31,9 +32,8 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
   sim::Simulation simulation(scenario);
   const auto made =
       detector(name).make(bench::intrinsics(simulation.calibration().camera), scenario);
-  Recording recording = bench::begin_recording(scenario, simulation);
-  bench::run(scenario, simulation, *made, recording,
-             [](const bench::FrameRecord&, const cv::Mat3b&) {});
+  Recording recording{bench::run_info(scenario, simulation), {}};
+  bench::run_into(recording, scenario, simulation, *made);
   return recording;
 }
 

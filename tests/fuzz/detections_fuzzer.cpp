@@ -2,6 +2,7 @@
 // and reading again; or refused by an error that names file and line.
 #include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
+#include "tests/scoring/whole_recordings.h"
 #include "tools/recording/box.h"
 #include "tools/recording/detections.h"
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/fuzz/input.h"
+#include "tests/scoring/whole_recordings.h"
 #include "tools/input/message.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
@@ -44,7 +45,7 @@ void score_and_store(const fs::path& folder) {
   for (const auto& [name, figure] : bench::score(recording)) {
     fuzz::require(!figure || std::isfinite(*figure), "figures are finite");
   }
-  bench::find_events(recording);
+  bench::all_events(recording);
   const fs::path copy = folder / "copy";
   fs::create_directory(copy);
   bench::RecordingWriter writer(copy, recording);
@@ -78,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   read_or_be_refused(folder, [&] { bench::read_events(folder / bench::kEventsFile); });
   read_or_be_refused(folder, [&] { suite::read_suite(folder); });
   read_or_be_refused(folder, [&] {
-    const auto pictures = bench::FramePictures::read(folder / bench::kPicturesFile, kSize_px);
+    const bench::FramePictures pictures(folder / bench::kPicturesFile, kSize_px);
     for (std::size_t i = 0; i < pictures.size(); ++i) decode(pictures, i);
   });
   return 0;

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "scenarios/scenario.h"
+#include "tests/scoring/whole_recordings.h"
 #include "tests/tools/files.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/refusal.h"

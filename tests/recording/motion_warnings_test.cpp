@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/recording/warnings.h"
+#include "tests/scoring/whole_recordings.h"
 
 namespace lcs::bench {
 namespace {
@@ -77,10 +77,16 @@ EgoMotion turning(double rate_radps) {
   return motion;
 }
 
+std::array<MotionWarning, 4> watched(const Recording& recording) {
+  MotionWatch watch;
+  for (const FrameRecord& frame : recording.frames) watch.add(frame);
+  return watch.warnings();
+}
+
 /// The keywords of the given warnings, with a space after each.
 std::string told(const Recording& recording) {
   std::string words;
-  for (const MotionWarning& warning : motion_warnings(recording)) {
+  for (const MotionWarning& warning : watched(recording)) {
     EXPECT_EQ(warning.count == 0, warning.text.empty());
     if (warning.count > 0) words += std::string(warning.word) + ' ';
   }
@@ -88,7 +94,7 @@ std::string told(const Recording& recording) {
 }
 
 std::string text_of(const Recording& recording, const std::string& word) {
-  for (const MotionWarning& warning : motion_warnings(recording)) {
+  for (const MotionWarning& warning : watched(recording)) {
     if (warning.word == word) return warning.text;
   }
   return "";

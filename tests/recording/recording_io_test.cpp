@@ -166,7 +166,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
   EXPECT_EQ(back.world, recording.world);
   ASSERT_TRUE(back.origin);
   EXPECT_TRUE(back.origin->is_same_world(*recording.origin));
-  EXPECT_TRUE(read_without_frames(folder.path()).origin.value().is_same_world(*recording.origin));
+  EXPECT_TRUE(read_run_info(folder.path()).origin.value().is_same_world(*recording.origin));
   ASSERT_EQ(back.objects.size(), recording.objects.size());
   for (std::size_t i = 0; i < back.objects.size(); ++i) {
     EXPECT_EQ(back.objects[i].id, recording.objects[i].id);

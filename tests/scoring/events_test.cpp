@@ -5,11 +5,11 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/scoring/whole_recordings.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/output/event_pictures.h"
-#include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {
 namespace {
@@ -277,17 +277,33 @@ cv::Mat3b decoded(const std::string& text) {
   return cv::imdecode(bytes, cv::IMREAD_COLOR);
 }
 
+/// The events with their pictures, of frames that all show the same.
+std::vector<Event> painted(const Recording& recording, const cv::Mat3b& picture) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / kPicturesFile;
+  PicturesWriter writer(file);
+  RebelScorer scorer;
+  for (const FrameRecord& frame : recording.frames) {
+    writer.write(picture);
+    scorer.add(frame);
+  }
+  writer.close();
+  const FramePictures pictures(file, picture.size());
+  auto events = find_events(recording);
+  for (const FrameRecord& frame : recording.frames) {
+    if (!frames_shown(events).contains(frame.index)) continue;
+    paint_views(frame, corner_outcomes(frame, scorer.detections()), pictures, events);
+  }
+  return events;
+}
+
 TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
   const Recording recording = recording_with([](int) { return kCorners; });
   for (const int width : {640, 1280}) {
     // The places are the same at any stored size of pictures.
     SCOPED_TRACE(width);
-    FramePictures pictures;
-    for (int k = 0; k < kFrames; ++k) {
-      pictures.add(cv::Mat3b(width * 3 / 4, width, cv::Vec3b(128, 128, 128)));
-    }
-    auto events = find_events(recording);
-    paint_events(recording, pictures, events);
+    const auto events =
+        painted(recording, cv::Mat3b(width * 3 / 4, width, cv::Vec3b(128, 128, 128)));
     const EventView& view = events.at(0).views.at(2);
     const cv::Mat3b picture = decoded(view.jpeg_base64);
     ASSERT_EQ(picture.size(), cv::Size(kEventPictureWidth_px, kEventPictureHeight_px));
@@ -318,10 +334,7 @@ TEST(EventPictures, AreWholeAtTheImagesBorder) {
     frames.push_back(frame);
   }
   const Recording recording = recording_of(frames);
-  FramePictures pictures;
-  for (int k = 0; k < kFrames; ++k) pictures.add(cv::Mat3b(60, 80, cv::Vec3b(9, 9, 9)));
-  auto events = find_events(recording);
-  paint_events(recording, pictures, events);
+  const auto events = painted(recording, cv::Mat3b(60, 80, cv::Vec3b(9, 9, 9)));
   for (const EventView& view : events.at(0).views) {
     EXPECT_EQ(decoded(view.jpeg_base64).cols, kEventPictureWidth_px);
   }

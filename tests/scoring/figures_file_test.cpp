@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/scoring/whole_recordings.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"

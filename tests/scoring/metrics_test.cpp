@@ -27,7 +27,8 @@ TEST(Metrics, AreOneForEachWarning) {
   for (const Metric& metric : metrics()) {
     if (metric.key.starts_with("warnings.")) known.push_back(metric.key);
   }
-  for (const Warned& warned : warnings_of({})) given.push_back("warnings." + warned.word);
+  for (const Warned& warned : WarningWatch(Truth::all).warned({}))
+    given.push_back("warnings." + warned.word);
   EXPECT_EQ(known, given);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/scoring/whole_recordings.h"
 #include "tests/tools/recordings.h"
 
 namespace lcs::bench {

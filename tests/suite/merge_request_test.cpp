@@ -46,8 +46,9 @@ class MergeRequest : public testing::Test {
                       const std::string& pictures_at = "") const {
     const Comparison comparison = compare(before, after, [](std::string_view) { return true; });
     fs::create_directory(home_.path() / "out");
-    write_merge_request(home_.path() / "out", {before, home_.path() / "before"},
-                        {after, home_.path() / "after"}, comparison, pictures_at);
+    const SuiteInFolder then{before, home_.path() / "before"}, now{after, home_.path() / "after"};
+    write_merge_request(home_.path() / "out", then, now, comparison,
+                        verdict_of(now, &then, &comparison), pictures_at);
     return bench::read(home_.path() / "out" / kSummaryFile);
   }
   std::string picture(const char* name) const { return bench::read(home_.path() / "out" / name); }

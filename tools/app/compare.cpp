@@ -26,14 +26,18 @@ Compared compare(const CompareRequest& request) {
                     "scenarios",
                     request.before, request.after));
   }
-  compared.verdict = suite::verdict_of({compared.after, {}}, nullptr, &compared.comparison);
-  if (!request.markdown.empty()) {
+  const bool is_text_asked = !request.markdown.empty();  // which shows the events
+  const auto in_folder = [&](const suite::SuiteResult& suite, const std::string& named) {
+    return suite::SuiteInFolder{suite, is_text_asked ? suite::folder_of(named) : ""};
+  };
+  const suite::SuiteInFolder before = in_folder(compared.before, request.before),
+                             after = in_folder(compared.after, request.after);
+  compared.verdict = suite::verdict_of(after, &before, &compared.comparison);
+  if (is_text_asked) {
     bench::Output folder(request.markdown,
                          {suite::kSummaryFile, suite::kBeforePicture, suite::kAfterPicture});
-    suite::write_merge_request(folder.staging(),
-                               {compared.before, suite::folder_of(request.before)},
-                               {compared.after, suite::folder_of(request.after)},
-                               compared.comparison, request.pictures_at);
+    suite::write_merge_request(folder.staging(), before, after, compared.comparison,
+                               compared.verdict, request.pictures_at);
     folder.commit();
   }
   return compared;

@@ -191,7 +191,7 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
     if (request.jobs == 1) {  // otherwise the child processes print it
       caller.warn(scenario::shadowed_files(scenario));
     }
-    bench::Recording seen;  // only its warnings are used
+    std::optional<sim::Warnings> world;
     const int frames = range.last - range.first;
     int whole = 0;
     try {
@@ -202,14 +202,14 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
         caller.check();
       };
       if (request.jobs > 1) share_frames(request, journal, show, caller);
-      seen.warnings = sequence::generate_frames(scenario, what, journal, range, show);
+      world = sequence::generate_frames(scenario, what, journal, range, show);
     } catch (const Interrupted&) {
       throw Interrupted(
           fmt::format("interrupted; {} of {} frames are whole, and the same command goes on from "
                       "there",
                       whole, frames));
     }
-    caller.warn(bench::lines_of(bench::warnings_of(seen)));
+    caller.warn(bench::lines_of(bench::WarningWatch(bench::Truth::all).warned(world)));
     if (is_part) {
       made.state = Generated::State::part;
     } else {

@@ -45,18 +45,19 @@ Intrinsics camera_of(const scenario::Scenario& scenario) {
 /// The source of the frames that the detectors process.
 struct Frames {
   Intrinsics camera;
-  bench::Recording recording;                 ///< without frames
-  sim::Versions versions = {};                ///< empty if nothing is simulated
-  const bench::Recording* earlier = nullptr;  ///< the earlier run's recording; null: none
-  const bench::FramePictures* pictures = nullptr;
+  bench::RunInfo info;
+  int count = 0;                                   ///< number of frames; 0: unknown
+  sim::Versions versions = {};                     ///< empty if nothing is simulated
+  const bench::FramePictures* pictures = nullptr;  ///< of an earlier run; null: none
   std::vector<std::string> missing = {};  ///< warnings about data that the earlier run lacks
-  std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
+  std::function<bench::RunEnd(std::span<const bench::Watcher>)> run;
 };
 
 Frames simulated(const scenario::Scenario& scenario) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
   return {.camera = bench::intrinsics(simulation->calibration().camera),
-          .recording = bench::begin_recording(scenario, *simulation),
+          .info = bench::run_info(scenario, *simulation),
+          .count = scenario.frames,
           .versions = simulation->versions(),
           .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
             return bench::run(scenario, *simulation, watchers);
@@ -65,7 +66,8 @@ Frames simulated(const scenario::Scenario& scenario) {
 
 Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
   return {.camera = bench::intrinsics(playback.camera()),
-          .recording = playback.begin(),
+          .info = playback.info(),
+          .count = scenario.frames,
           .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
             return bench::run(playback, bench::CornerFinder(scenario), watchers);
           }};
@@ -101,17 +103,12 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
         request.recorded));
   }
   return {.camera = camera,
-          .recording = earlier->begin(),
-          .earlier = &earlier->recording(),
+          .info = earlier->info(),
+          .count = earlier->frames(),
           .pictures = earlier->pictures(),
           .missing = std::move(missing),
           .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
-            std::vector<Diagnostics> all;
-            for (const bench::Watcher& watcher : watchers) {
-              all.push_back(
-                  earlier->run(watcher.detector, watcher.recording, with_images, watcher.sink));
-            }
-            return all;
+            return earlier->run(watchers, with_images);
           }};
 }
 
@@ -122,7 +119,7 @@ struct Watching {
   scenario::Scenario scenario;  ///< with this detector's preset applied
   std::vector<std::string> settings_without_effect = {};
   std::unique_ptr<bench::Detector> detector = {};
-  bench::Recording recording = {};
+  bench::RunInfo info = {};
   std::unique_ptr<bench::Result> result = {};
 };
 
@@ -170,7 +167,7 @@ void write_how_made(const RunRequest& request, const scenario::Scenario& scenari
                       command_of(request, scenario, watching, is_own), frames.versions,
                       {{"scenario", scenario.name},
                        {"seed", scenario.seed},
-                       {"frames", watching.recording.frames.size()},
+                       {"frames", watching.result->frames()},
                        {"detector", watching.spec.name},
                        {"settings", request.sets},
                        {"recorded", request.recorded}});
@@ -185,7 +182,7 @@ void write_page(const RunRequest& request, const scenario::Scenario& scenario, c
                        .error = {},
                        .metrics = metrics,
                        .criteria = {},
-                       .warnings = bench::warnings_of(own.recording),
+                       .warnings = own.result->warned(),
                        .folder = "."};
   suite::judge_run(bench::asked_of(own.spec.name, true, scenario.criteria), run);
   suite::SuiteResult suite{.detector = own.spec.name,
@@ -233,12 +230,12 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     }
     one.detector = comparators::make(one.spec, {.camera = frames.camera,
                                                 .scenario = one.scenario,
-                                                .recorded = frames.earlier,
+                                                .recorded = request.recorded,
+                                                .frames = frames.count,
                                                 .on_wait = [&] { caller.check(); }});
-    one.recording = frames.recording;
-    one.recording.detector = {one.spec.name, one.spec.detector.layered,
-                              one.detector->gives_circles()};
-    one.recording.camera = frames.camera;
+    one.info = frames.info;
+    one.info.detector = {one.spec.name, one.spec.detector.layered, one.detector->gives_circles()};
+    one.info.camera = frames.camera;
   }
   for (Watching& one : all) {
     bench::ResultOptions what;
@@ -257,7 +254,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
       what.kept = frames.pictures;
     }
     one.result = std::make_unique<bench::Result>(
-        one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
+        one.target, one.info, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
   }
   caller.warn(scenario::shadowed_files(scenario));
   caller.warn(own.settings_without_effect);
@@ -266,25 +263,25 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   caller.warn(bench::not_asked(scenario.criteria, names));
   caller.warn(bench::not_judged(scenario.criteria));
   caller.warn(frames.missing);
-  std::vector<Diagnostics> diagnostics;
+  bench::RunEnd end;
   {
     const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
     std::vector<bench::Watcher> watchers;
     for (Watching& one : all) {
-      watchers.push_back({*one.detector, one.recording,
-                          [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-                            caller.check();
-                            one.result->add(frame, image);
-                            progress->show(frame.index + 1);
-                          }});
+      watchers.push_back(
+          {*one.detector, [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+             caller.check();
+             one.result->add(frame, image);
+             progress->show(frame.index + 1);
+           }});
     }
-    diagnostics = frames.run(watchers);
+    end = frames.run(watchers);
   }
   caller.check();
   std::vector<bench::Metrics> metrics;
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
-    metrics.push_back(one.result->finish(one.recording));
+    metrics.push_back(one.result->finish(end.warnings));
     if (&one != &own) one.result->share_truth(*own.result);
     write_how_made(request, scenario, frames, one, &one == &own);
     outputs.push_back(&one.result->output());
@@ -292,11 +289,11 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   caller.check();
   bench::commit_all(outputs);
 
-  caller.warn(bench::lines_of(bench::warnings_of(own.recording)));
+  caller.warn(bench::lines_of(own.result->warned()));
   if (playback && request.recorded.empty()) {
     for (const std::string& line : playback->told()) caller.tell(line);
   }
-  for (const std::string& line : diagnostics.front().lines()) caller.tell(line);
+  for (const std::string& line : end.diagnostics.front().lines()) caller.tell(line);
   for (const std::string& line : own.detector->told()) caller.tell(line);
   RunMade made;
   for (std::size_t i = 0; i < all.size(); ++i) {

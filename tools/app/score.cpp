@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -32,18 +34,46 @@ void refuse_folder_of_runs(const std::filesystem::path& folder) {
   }
 }
 
-bench::Recording read_run(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(
-        fmt::format("{} is no folder; name one that lcs run has left", folder.string()));
+/// A run's frames with their times.
+class StoredRun {
+ public:
+  explicit StoredRun(const std::filesystem::path& folder) : frames_(checked(folder)) {
+    // The file is optional; without it the frames have no times.
+    if (std::filesystem::exists(folder / bench::kFramesFile)) {
+      times_.emplace(folder / bench::kFramesFile);
+    }
   }
-  refuse_folder_of_runs(folder);
-  bench::Recording recording = bench::read_recording(folder);
-  // The file is optional; without it the recording has no times.
-  const std::filesystem::path frames_csv = folder / bench::kFramesFile;
-  if (std::filesystem::exists(frames_csv)) bench::read_times(frames_csv, recording);
-  return recording;
-}
+
+  const bench::RunInfo& info() const { return frames_.run(); }
+
+  template <class Use>
+  void for_each(const Use& use) {
+    for (bench::FrameRecord frame; frames_.next(frame);) {
+      if (times_) times_->read(frame);
+      use(frame);
+    }
+    if (times_) times_->finish();
+  }
+
+  bench::Metrics score() {
+    bench::Scorer scorer(info());
+    for_each([&](const bench::FrameRecord& frame) { scorer.add(frame); });
+    return scorer.metrics(info().warnings);
+  }
+
+ private:
+  static const std::filesystem::path& checked(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) {
+      throw std::runtime_error(
+          fmt::format("{} is no folder; name one that lcs run has left", folder.string()));
+    }
+    refuse_folder_of_runs(folder);
+    return folder;
+  }
+
+  bench::RecordingReader frames_;
+  std::optional<bench::TimesReader> times_;
+};
 
 /// Scores every run of a suite again.
 suite::SuiteResult score_suite(const ScoreRequest& request, Caller& caller) {
@@ -59,7 +89,7 @@ suite::SuiteResult score_suite(const ScoreRequest& request, Caller& caller) {
     for (suite::RunResult& run : scenario.runs) {
       caller.check();
       if (run.outcome != suite::Outcome::error) {
-        run.metrics = bench::score(read_run(folder / run.folder));
+        run.metrics = StoredRun(folder / run.folder).score();
       }
     }
   }
@@ -72,11 +102,13 @@ Scored score(const ScoreRequest& request, Caller& caller) {
   if (std::filesystem::exists(std::filesystem::path(request.sequence) / suite::kSuiteFile)) {
     return {.suite = score_suite(request, caller)};
   }
-  bench::Recording recording = read_run(request.sequence);
+  StoredRun stored(request.sequence);
+  std::optional<bench::Detections> detections;
   if (!request.detections.empty()) {
-    bench::Detections detections = bench::read_detections(request.detections, recording);
-    for (const std::string& line : bench::lines_of(detections.counts)) caller.tell(line);
-    recording = std::move(detections.recording);
+    bench::Recording whole{stored.info(), {}};
+    stored.for_each([&](const bench::FrameRecord& frame) { whole.frames.push_back(frame); });
+    detections = bench::read_detections(request.detections, std::move(whole));
+    for (const std::string& line : bench::lines_of(detections->counts)) caller.tell(line);
   }
   std::vector<bench::Output*> outputs;
   std::optional<bench::Output> figures, verdicts;
@@ -85,12 +117,26 @@ Scored score(const ScoreRequest& request, Caller& caller) {
   };
   add(figures, request.out);
   add(verdicts, request.write_detections);
-  bench::Metrics metrics = bench::score(recording);
+  Scored scored{.run = detections ? detections->recording : stored.info()};
+  bench::Scorer scorer(scored.run);
+  std::optional<bench::DetectionsWriter> writer;
+  if (verdicts) writer.emplace(verdicts->staging(), scored.run);
+  const auto take = [&](const bench::FrameRecord& frame) {
+    scorer.add(frame);
+    if (writer) writer->write(frame);
+  };
+  if (detections) {
+    std::ranges::for_each(detections->recording.frames, take);
+  } else {
+    stored.for_each(take);
+  }
+  scored.frames = scorer.frames();
+  scored.metrics = scorer.metrics(scored.run.warnings);
   caller.check();
-  if (figures) bench::write_metrics(figures->staging(), metrics);
-  if (verdicts) bench::write_detections(verdicts->staging(), recording);
+  if (figures) bench::write_metrics(figures->staging(), scored.metrics);
+  if (writer) writer->close();
   bench::commit_all(outputs);
-  return {.recording = std::move(recording), .metrics = std::move(metrics)};
+  return scored;
 }
 
 }  // namespace lcs::app

@@ -22,7 +22,8 @@ struct ScoreRequest {
 
 /// The figures of a run; of a suite only `suite` is set.
 struct Scored {
-  bench::Recording recording = {};
+  bench::RunInfo run = {};
+  int frames = 0;
   bench::Metrics metrics = {};
   std::optional<suite::SuiteResult> suite = {};  ///< with the figures of all runs anew
 };

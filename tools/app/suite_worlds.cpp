@@ -31,7 +31,7 @@ constexpr const char* kFolder = "out/worlds";
 /// Pictures and truth of a run's sampled frames; absent if the run has no pictures.
 std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
   if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
-  const auto pictures = bench::FramePictures::read(run / bench::kPicturesFile, image_px);
+  const bench::FramePictures pictures(run / bench::kPicturesFile, image_px);
   const auto shown = worlds::frames_shown(static_cast<int>(pictures.size()));
   const auto objects = bench::read_object_truth(run, shown);
   worlds::Shots shots;

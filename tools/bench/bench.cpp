@@ -31,9 +31,9 @@ bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
   return true;
 }
 
-bool SimulatedFrames::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const {
+bool SimulatedFrames::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const {
   rectifier_.rectify(corners_px);
-  rectifier_.rectify(image);
+  rectifier_.rectify(picture);
   return !rectifier_.is_pinhole();
 }
 
@@ -48,20 +48,6 @@ void SimulatedFrames::label(FrameRecord& frame) {
   rectifier_.rectify(truth.depth_m);
 }
 
-namespace {
-
-cv::Mat1b straightened(const FrameSource& source, const cv::Mat1b& surface) {
-  std::vector<Eigen::Vector2f> none;
-  cv::Mat3b picture;
-  cv::cvtColor(surface, picture, cv::COLOR_GRAY2BGR);
-  if (!source.straighten(none, picture)) return surface;
-  cv::Mat1b straight;
-  cv::extractChannel(picture, straight, 0);
-  return straight;
-}
-
-}  // namespace
-
 std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
                              bool are_signatures_wanted) {
   SeenFrame seen;
@@ -75,8 +61,10 @@ std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
   if (source.straighten(frame.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   if (are_signatures_wanted) {
     frame.signatures = timed(times.describe_ms, [&] {
-      const std::optional<cv::Mat1b> surface = corners.surface();
-      return describe(surface ? straightened(source, *surface) : grey, frame.corners_px);
+      std::optional<cv::Mat1b> surface = corners.surface();
+      std::vector<Eigen::Vector2f> none;
+      if (surface) source.straighten(none, *surface);
+      return describe(surface.value_or(grey), frame.corners_px);
     });
   }
   source.label(frame);
@@ -98,14 +86,14 @@ void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms
   frame.times = times;
 }
 
-Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
-  Recording recording;
-  recording.scenario = scenario.name;
-  recording.seed = scenario.seed;
-  recording.world = scenario.world;
-  recording.origin = simulation.origin();
-  recording.objects = simulation.objects();
-  return recording;
+RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
+  RunInfo run;
+  run.scenario = scenario.name;
+  run.seed = scenario.seed;
+  run.world = scenario.world;
+  run.origin = simulation.origin();
+  run.objects = simulation.objects();
+  return run;
 }
 
 void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
@@ -121,15 +109,14 @@ void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, Fram
   frame.masks = detector.masks();
 }
 
-std::vector<Diagnostics> run(FrameSource& source, CornerFinder corners,
-                             std::span<const Watcher> watchers) {
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers) {
   const bool are_signatures_wanted =
       std::any_of(watchers.begin(), watchers.end(),
                   [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
 
   while (const std::optional<SeenFrame> seen = see(source, corners, are_signatures_wanted)) {
     for (const Watcher& watcher : watchers) {
-      FrameRecord& frame = watcher.recording.frames.emplace_back(seen->record);
+      FrameRecord frame = seen->record;
       if (!watcher.detector.wants_signatures()) {  // as in a run of its own
         frame.signatures = {};
         frame.times->describe_ms = 0;
@@ -138,26 +125,19 @@ std::vector<Diagnostics> run(FrameSource& source, CornerFinder corners,
       watcher.sink(frame, seen->image);
     }
   }
-  std::vector<Diagnostics> all;
+  RunEnd end{.diagnostics = {}, .warnings = source.warnings()};
   for (const Watcher& watcher : watchers) {
-    watcher.recording.warnings = source.warnings();
-    all.push_back(source.diagnostics());
+    end.diagnostics.push_back(source.diagnostics());
     watcher.detector.finish();
-    all.back() += watcher.detector.diagnostics();
+    end.diagnostics.back() += watcher.detector.diagnostics();
   }
-  return all;
+  return end;
 }
 
-std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-                             std::span<const Watcher> watchers) {
+RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+           std::span<const Watcher> watchers) {
   SimulatedFrames frames(scenario, simulation);
   return run(frames, CornerFinder(scenario), watchers);
-}
-
-Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Detector& detector,
-                Recording& recording, const FrameSink& sink) {
-  const Watcher watcher{detector, recording, sink};
-  return run(scenario, simulation, {&watcher, 1}).front();
 }
 
 }  // namespace lcs::bench

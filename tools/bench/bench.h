@@ -36,8 +36,8 @@ class FrameSource {
 
   /// Undistorts corners and picture: from the recording camera to the pinhole camera of the
   /// detectors. Drops corners that are not scored.
-  /// \return whether the picture changed.
-  virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
+  /// \param picture BGR or grey. \return whether it changed.
+  virtual bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const = 0;
 
   /// Adds the truth of the frame's corners and objects, as far as it is known.
   virtual void label(FrameRecord& frame) = 0;
@@ -53,7 +53,7 @@ class SimulatedFrames : public FrameSource {
   SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation);
 
   bool next(FrameRecord& frame, cv::Mat3b& image) override;
-  bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const override;
+  bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const override;
   void label(FrameRecord& frame) override;
   std::span<const sim::Event> events() const override { return observation_->events; }
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
@@ -88,8 +88,8 @@ std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
 
-/// A recording of the scenario, without frames.
-Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
+/// The facts of a run of the scenario.
+RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
 /// Runs a detector on a frame with known corners.
 /// \param frame with corners, motion and optional signatures; receives verdicts, layers and times.
@@ -99,22 +99,23 @@ void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, Fram
 /// A detector of a run, and the destination of its results.
 struct Watcher {
   Detector& detector;
-  Recording& recording;  ///< receives each frame before the sink does, and finally the warnings
   FrameSink sink;
 };
 
-/// Processes all frames. Each watcher gets the same frames as it would alone.
-/// \return for each watcher, faults in the sensors' readings and in its detector's input.
+/// What is known once all frames are processed.
+struct RunEnd {
+  /// For each watcher, faults in the sensors' readings and in its detector's input.
+  std::vector<Diagnostics> diagnostics;
+  std::optional<sim::Warnings> warnings;  ///< of the simulation, if there is one
+};
+
+/// Processes all frames, and keeps none. Each watcher gets the same frames as it would alone.
 /// \throws the exceptions of source, detectors and sinks.
-std::vector<Diagnostics> run(FrameSource& source, CornerFinder corners,
-                             std::span<const Watcher> watchers);
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers);
 
 /// Runs the simulation to its end. \param scenario of the simulation.
 /// \return,\throws like the function above, and sim::PhysicsError.
-std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-                             std::span<const Watcher> watchers);
-/// The same for one detector.
-Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Detector& detector,
-                Recording& recording, const FrameSink& sink);
+RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+           std::span<const Watcher> watchers);
 
 }  // namespace lcs::bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/recording/recording_io.h"
 
@@ -31,7 +32,7 @@ std::string difference(const World& then, const World& now) {
   return "";
 }
 
-void require_same(const fs::path& folder, const Recording& recorded,
+void require_same(const fs::path& folder, const RunInfo& recorded, int frames,
                   const scenario::Scenario& scenario) {
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(
@@ -50,8 +51,8 @@ void require_same(const fs::path& folder, const Recording& recorded,
   if (recorded.world.empty()) refuse("it does not say what world it is of");
   if (recorded.world != scenario.world) refuse(difference(recorded.world, scenario.world));
   // The run of a recording lacks frames whose pictures are unreadable.
-  if (!scenario.recording && std::ssize(recorded.frames) != scenario.frames) {
-    refuse(fmt::format("it has {} frames of {}", recorded.frames.size(), scenario.frames));
+  if (!scenario.recording && frames != scenario.frames) {
+    refuse(fmt::format("it has {} frames of {}", frames, scenario.frames));
   }
 }
 
@@ -59,47 +60,29 @@ void require_same(const fs::path& folder, const Recording& recorded,
 
 EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario,
                        const Intrinsics& camera)
-    : camera_(camera) {
+    : folder_(folder), camera_(camera) {
   if (!fs::exists(stored(folder, kLayersFile))) {
     throw std::runtime_error(fmt::format(
         "there is no run in {} with its frames; name a folder that was made with --keep all, which "
         "is the default",
         folder.string()));
   }
-  recorded_ = without_detections(read_recording(folder));
-  require_same(folder, recorded_, scenario);
-  if (!recorded_.origin) recorded_.origin = scenario.origin;
+  RecordingReader reader(folder);
+  info_ = reader.run();
+  info_.detector = {};
+  for (FrameRecord frame; reader.next(frame); ++frames_) {
+    lacks_signatures_ |= frame.signatures.size() < frame.corners_px.size();
+    lacks_gaps_ |= !frame.gaps;
+  }
+  require_same(folder, info_, frames_, scenario);
+  if (!info_.origin) info_.origin = scenario.origin;
   const fs::path pictures = folder / kPicturesFile;
   if (!fs::exists(pictures)) return;
-  pictures_ = FramePictures::read(pictures, {camera_.width_px, camera_.height_px});
-  if (pictures_->size() != recorded_.frames.size()) {
+  pictures_.emplace(pictures, cv::Size(camera_.width_px, camera_.height_px));
+  if (pictures_->size() != static_cast<std::size_t>(frames_)) {
     throw std::runtime_error(fmt::format("{} has {} pictures of {} frames; record the run again",
-                                         pictures.string(), pictures_->size(),
-                                         recorded_.frames.size()));
+                                         pictures.string(), pictures_->size(), frames_));
   }
-}
-
-bool EarlierRun::lacks_signatures() const {
-  return std::any_of(
-      recorded_.frames.begin(), recorded_.frames.end(),
-      [](const FrameRecord& frame) { return frame.signatures.size() < frame.corners_px.size(); });
-}
-
-bool EarlierRun::lacks_gaps() const {
-  return std::ranges::any_of(recorded_.frames,
-                             [](const FrameRecord& frame) { return !frame.gaps; });
-}
-
-Recording EarlierRun::begin() const {
-  return {.scenario = recorded_.scenario,
-          .seed = recorded_.seed,
-          .world = recorded_.world,
-          .origin = recorded_.origin,
-          .detector = {},
-          .truth = recorded_.truth,
-          .objects = recorded_.objects,
-          .frames = {},
-          .warnings = recorded_.warnings};
 }
 
 /// Resized to the camera's size.
@@ -111,16 +94,21 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-Diagnostics EarlierRun::run(Detector& detector, Recording& recording, bool with_images,
-                            const FrameSink& sink) const {
-  for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
-    FrameRecord& frame = recording.frames.emplace_back(recorded_.frames[k]);
-    const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
-    ask(detector, picture, {}, frame);
-    sink(frame, picture);
+RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images) const {
+  RunEnd end{.diagnostics = {}, .warnings = info_.warnings};
+  for (const Watcher& watcher : watchers) {
+    RecordingReader reader(folder_);
+    FrameRecord recorded;
+    for (std::size_t k = 0; reader.next(recorded); ++k) {
+      FrameRecord frame = without_detections(std::move(recorded));
+      const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
+      ask(watcher.detector, picture, {}, frame);
+      watcher.sink(frame, picture);
+    }
+    watcher.detector.finish();
+    end.diagnostics.push_back(watcher.detector.diagnostics());
   }
-  detector.finish();
-  return detector.diagnostics();
+  return end;
 }
 
 }  // namespace lcs::bench

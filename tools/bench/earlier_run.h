@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
@@ -23,32 +24,31 @@ class EarlierRun {
   /// The pictures of all frames, if the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
 
-  /// Corners, signatures, motions and truth, without verdicts.
-  const Recording& recording() const { return recorded_; }
+  /// The scenario, seed, world, objects and truth of the run, without its detector.
+  const RunInfo& info() const { return info_; }
+  int frames() const { return frames_; }
 
   /// Whether some corner has no signature, as in a run with only a comparator. The filter may then
   /// decide differently from a run of its own.
-  bool lacks_signatures() const;
+  bool lacks_signatures() const { return lacks_signatures_; }
 
   /// Whether the run did not look at gaps below circles, as one with only a comparator. The filter
   /// then finds no bodies that approach at constant speed.
-  bool lacks_gaps() const;
+  bool lacks_gaps() const { return lacks_gaps_; }
 
-  /// A recording of the scenario, without frames.
-  Recording begin() const;
-
-  /// Processes all frames, like `bench::run`.
+  /// Processes all frames for one watcher after another, like `bench::run`.
   /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
   ///   with losses of compression. Else the pictures are empty.
-  /// \return counts of the faults in the detector's input.
-  /// \throws the exceptions of the detector and the sink.
-  Diagnostics run(Detector& detector, Recording& recording, bool with_images,
-                  const FrameSink& sink) const;
+  /// \throws the exceptions of the detectors and the sinks.
+  RunEnd run(std::span<const Watcher> watchers, bool with_images) const;
 
  private:
   cv::Mat3b image(std::size_t position) const;
 
-  Recording recorded_;  // without detections
+  std::filesystem::path folder_;
+  RunInfo info_;
+  int frames_ = 0;
+  bool lacks_signatures_ = false, lacks_gaps_ = false;
   Intrinsics camera_;
   std::optional<FramePictures> pictures_;
 };

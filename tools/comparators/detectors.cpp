@@ -12,6 +12,7 @@
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
 #include "tools/comparators/stored_detections.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
 namespace {
@@ -119,23 +120,22 @@ DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& 
 
 std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorContext& context) {
   if (!spec.detections_file.empty()) {
-    if (context.recorded == nullptr) {
+    if (context.recorded.empty()) {
       throw std::invalid_argument(
           "--detections are of the frames of an earlier run; name it by "
           "--recorded");
     }
-    return std::make_unique<StoredDetections>(spec.detections_file, *context.recorded);
+    return std::make_unique<StoredDetections>(spec.detections_file,
+                                              bench::read_recording(context.recorded));
   }
   if (!spec.program) return spec.detector.make(context.camera, context.scenario);
   const scenario::Scenario& scenario = context.scenario;
-  const int frames = context.recorded != nullptr ? static_cast<int>(context.recorded->frames.size())
-                                                 : scenario.frames;
   const Announced announced{.scenario = scenario.name,
                             .seed = scenario.seed,
-                            .frames = frames,
+                            .frames = context.frames,
                             .rate_hz = scenario.camera.rate_hz,
                             .camera = context.camera,
-                            .compressed = context.recorded != nullptr};
+                            .compressed = !context.recorded.empty()};
   return std::make_unique<ProgramDetector>(spec.name, *spec.program, announced, context.on_wait);
 }
 

@@ -57,8 +57,9 @@ DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& 
 struct DetectorContext {
   const Intrinsics& camera;
   const scenario::Scenario& scenario;
-  const bench::Recording* recorded = nullptr;  ///< the coming frames, if known
-  std::function<void()> on_wait = {};          ///< as in `DetectorProcess`
+  std::filesystem::path recorded = {};  ///< folder of the run that provides the frames; "": none
+  int frames = 0;                       ///< number of frames; 0: unknown
+  std::function<void()> on_wait = {};   ///< as in `DetectorProcess`
 };
 
 /// \throws input::Error, DetectorError, std::runtime_error.

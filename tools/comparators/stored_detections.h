@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/bench/detector.h"
@@ -15,8 +16,8 @@ class StoredDetections : public bench::Detector {
  public:
   /// \param sequence with the frames that will be processed, in order.
   /// \throws input::Error naming file and line.
-  StoredDetections(const std::filesystem::path& csv, const bench::Recording& sequence)
-      : said_(bench::read_detections(csv, sequence)) {}
+  StoredDetections(const std::filesystem::path& csv, bench::Recording sequence)
+      : said_(bench::read_detections(csv, std::move(sequence))) {}
 
   const FrameResult& step(const bench::DetectorInput&) override {
     bench::FrameRecord& frame = said_.recording.frames.at(next_++);

@@ -152,6 +152,21 @@ std::string InputFile::bytes() {
   return std::move(buffer_);
 }
 
+std::string InputFile::bytes_at(std::uint64_t offset, std::size_t count) const {
+  std::string bytes(count, '\0');
+  std::size_t read = 0;
+  while (read < count) {
+    const ssize_t got =
+        ::pread(descriptor_, bytes.data() + read, count - read, static_cast<off_t>(offset + read));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(errno);
+    if (got == 0) break;
+    read += static_cast<std::size_t>(got);
+  }
+  bytes.resize(read);
+  return bytes;
+}
+
 bool InputFile::next_line(std::string& line) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::size_t end = buffer_.find('\n', used_);

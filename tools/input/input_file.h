@@ -38,6 +38,10 @@ class InputFile {
   /// The bytes not yet read. \throws Error
   std::string bytes();
 
+  /// Up to `count` bytes from a place in the file, which no other call changes; fewer at its end.
+  /// Not of a compressed file. \throws Error
+  std::string bytes_at(std::uint64_t offset, std::size_t count) const;
+
   /// Reads the next line without its line end, and without a byte order mark at the file's start.
   /// \return false at the end. \throws Error, also for a line of more than 256 MiB.
   bool next_line(std::string& line);

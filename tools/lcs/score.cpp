@@ -49,15 +49,14 @@ ExitCode score(const ScoreOptions& options) {
   Terminal terminal(options.quiet);
   app::ScoreRequest request = options.request;
   request.overwrite = overwrite(options.force);
-  const auto [recording, metrics, suite] = app::score(request, terminal);
+  const auto [run, frames, metrics, suite] = app::score(request, terminal);
   if (options.quiet) return kFine;
   if (suite) {
     print_out("{}", suite::suite_table(*suite, false));
   } else {
     print_out("{}\n{}",
-              input::one_line(fmt::format("{} by {}: {} frames, seed {}", recording.scenario,
-                                          recording.detector.name, recording.frames.size(),
-                                          recording.seed)),
+              input::one_line(fmt::format("{} by {}: {} frames, seed {}", run.scenario,
+                                          run.detector.name, frames, run.seed)),
               bench::table(metrics));
   }
   return kFine;

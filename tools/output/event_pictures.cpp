@@ -122,20 +122,23 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
 
 }  // namespace
 
-void paint_events(const Recording& recording, const FramePictures& pictures,
-                  std::vector<Event>& events) {
-  const auto outcomes = corner_outcomes(recording);
+std::set<int> frames_shown(const std::vector<Event>& events) {
+  std::set<int> frames;
+  for (const Event& event : events) {
+    for (const EventView& view : event.views) frames.insert(view.frame);
+  }
+  return frames;
+}
+
+void paint_views(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
+                 const FramePictures& pictures, std::vector<Event>& events) {
+  double scale = 1;
+  const cv::Mat3b kept = pictures.at(static_cast<std::size_t>(frame.index), scale);
   for (Event& event : events) {
     for (EventView& view : event.views) {
-      const auto frame =
-          std::find_if(recording.frames.begin(), recording.frames.end(),
-                       [&](const FrameRecord& record) { return record.index == view.frame; });
-      const auto position = static_cast<std::size_t>(frame - recording.frames.begin());
-      double scale = 1;
-      const cv::Mat3b kept = pictures.at(position, scale);
+      if (view.frame != frame.index) continue;
       const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
-      const auto bytes =
-          sim::encode_jpeg(paint(*frame, outcomes[position], kept, cut, event), kShownQuality);
+      const auto bytes = sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality);
       view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
   }

@@ -45,7 +45,7 @@ std::vector<Mark> square_marks(const FrameRecord& frame, const SquareOutcomes& o
 
 }  // namespace
 
-FramePainter::FramePainter(cv::Size image_px, const Recording& run)
+FramePainter::FramePainter(cv::Size image_px, const RunInfo& run)
     : sheet_(image_px), scenario_(run.scenario), is_truth_known_(run.truth == Truth::all) {
   for (const sim::Object& object : run.objects) names_[object.id] = object.name;
 }

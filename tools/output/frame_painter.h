@@ -17,7 +17,7 @@ class FramePainter {
  public:
   /// \param image_px size of the camera's image. \param run with the names of scenario and objects,
   ///   and whether their truth is known.
-  FramePainter(cv::Size image_px, const Recording& run);
+  FramePainter(cv::Size image_px, const RunInfo& run);
 
   cv::Size size_px() const { return sheet_.size_px(); }
 

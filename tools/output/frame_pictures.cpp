@@ -8,10 +8,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/pictures/picture_file.h"
-#include "tools/files/output_file.h"
-#include "tools/input/input_file.h"
 
 namespace lcs::bench {
 namespace {
@@ -30,58 +29,64 @@ double kept_scale(int image_width_px) {
 
 }  // namespace
 
-void FramePictures::add(const cv::Mat3b& image) {
-  scale_ = kept_scale(image.cols);
+void PicturesWriter::write(const cv::Mat3b& image) {
+  const double scale = kept_scale(image.cols);
   cv::Mat3b kept = image;
-  if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
-  jpegs_.push_back(sim::encode_jpeg(kept, kKeptQuality));
+  if (scale < 1) cv::resize(image, kept, {}, scale, scale, cv::INTER_AREA);
+  const std::vector<unsigned char> bytes = sim::encode_jpeg(kept, kKeptQuality);
+  file_.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size image_px) {
-  // At 40 kB a picture, enough for hundreds of thousands of frames.
-  constexpr input::FileKind kMotionJpeg{16 * input::kGibibyte, kRecordAgain};
-  const std::string bytes = input::read_file(file, kMotionJpeg);
-  FramePictures pictures;
-  pictures.scale_ = kept_scale(image_px.width);
-  const cv::Size2l expected(cvRound(image_px.width * pictures.scale_),
-                            cvRound(image_px.height * pictures.scale_));
-  for (std::size_t start = 0; start < bytes.size();) {
-    const std::size_t end = bytes.find(kJpegEnd, start);
-    if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
-      throw input::Error({file.string(), 0}, "not a JPEG picture at byte " + std::to_string(start) +
-                                                 "; " + kRecordAgain);
+// At 40 kB a picture, enough for hundreds of thousands of frames.
+constexpr input::FileKind kMotionJpeg{16 * input::kGibibyte, kRecordAgain};
+
+FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_px)
+    : file_(file, kMotionJpeg), scale_(kept_scale(image_px.width)) {
+  constexpr std::size_t kBlock = 1 << 16;
+  const cv::Size2l expected(cvRound(image_px.width * scale_), cvRound(image_px.height * scale_));
+  const auto fail = [&](const std::string& what) {
+    throw input::Error({file.string(), 0}, fmt::format("{}; {}", what, kRecordAgain));
+  };
+  std::string bytes;  // from the last start on
+  while (true) {
+    std::size_t end = bytes.find(kJpegEnd);
+    while (end == std::string::npos) {
+      const std::string more = file_.bytes_at(starts_.back() + bytes.size(), kBlock);
+      if (more.empty()) break;
+      const std::size_t seen = bytes.empty() ? 0 : bytes.size() - 1;
+      bytes += more;
+      end = bytes.find(kJpegEnd, seen);
     }
-    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
-    const std::size_t length = end + kJpegEnd.size() - start;
-    const auto size = sim::picture_size({bytes.data() + start, length}).value_or(cv::Size2l());
+    if (bytes.empty()) return;
+    if (!bytes.starts_with(kJpegStart) || end == std::string::npos) {
+      fail(fmt::format("not a JPEG picture at byte {}", starts_.back()));
+    }
+    const std::size_t length = end + kJpegEnd.size();
+    const auto size = sim::picture_size({bytes.data(), length}).value_or(cv::Size2l());
     if (size != expected) {
-      throw input::Error(
-          {file.string(), 0},
-          fmt::format(
-              "picture {} has {} x {} pixels, and one of a camera of {} x {} has {} x {}; {}",
-              pictures.size(), size.width, size.height, image_px.width, image_px.height,
-              expected.width, expected.height, kRecordAgain));
+      fail(fmt::format("picture {} has {} x {} pixels, and one of a camera of {} x {} has {} x {}",
+                       this->size(), size.width, size.height, image_px.width, image_px.height,
+                       expected.width, expected.height));
     }
-    pictures.jpegs_.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
-    start += length;
+    starts_.push_back(starts_.back() + length);
+    bytes.erase(0, length);
   }
-  return pictures;
 }
 
-void FramePictures::write(const std::filesystem::path& file) const {
-  OutputFile output(file);
-  for (const auto& bytes : jpegs_) {
-    output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+void FramePictures::copy_to(const std::filesystem::path& file) const {
+  OutputFile copy(file);
+  for (std::size_t i = 0; i < size(); ++i) {
+    copy.write(file_.bytes_at(starts_[i], starts_[i + 1] - starts_[i]));
   }
-  output.close();
+  copy.close();
 }
 
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   scale = scale_;
-  const std::vector<unsigned char>& bytes = jpegs_.at(position);
+  const std::uint64_t start = starts_.at(position);
+  const std::string bytes = file_.bytes_at(start, starts_.at(position + 1) - start);
   try {
-    return sim::decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                               cv::IMREAD_COLOR);
+    return sim::decode_picture(bytes, cv::IMREAD_COLOR);
   } catch (const sim::PictureError&) {
     throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
                              " is broken; " + kRecordAgain);

@@ -1,37 +1,54 @@
 /// \file
-/// The camera's images of a run, compressed.
+/// The camera's images of a run, compressed, in a file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <vector>
+
+#include "tools/files/output_file.h"
+#include "tools/input/input_file.h"
 
 namespace lcs::bench {
 
 inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 
-/// The images of a run, kept compressed until its events are known. Wider images are scaled down to
-/// 640 px: about 40 kB a frame.
-class FramePictures {
+/// Writes Motion JPEG: concatenated pictures. Wider images are scaled down to 640 px: about 40 kB a
+/// frame.
+class PicturesWriter {
  public:
-  /// Reads a file of `write`. \param image_px size of the run's images.
-  /// \throws input::Error naming the file and its fault, also for pictures whose size differs
-  ///   from that made by `add`.
-  static FramePictures read(const std::filesystem::path& file, cv::Size image_px);
-  /// Writes Motion JPEG: concatenated pictures. \throws OutputError
-  void write(const std::filesystem::path& file) const;
-
-  /// \param image of the next frame of the recording, BGR.
-  void add(const cv::Mat3b& image);
-
-  /// \param scale set to picture pixels per image pixel.
-  /// \throws std::runtime_error for a damaged picture.
-  cv::Mat3b at(std::size_t position, double& scale) const;
-  std::size_t size() const { return jpegs_.size(); }
+  /// \throws OutputError
+  explicit PicturesWriter(const std::filesystem::path& file) : file_(file) {}
+  /// \param image of the next frame, BGR. \throws OutputError
+  void write(const cv::Mat3b& image);
+  /// \throws OutputError
+  void close() { file_.close(); }
 
  private:
-  std::vector<std::vector<unsigned char>> jpegs_;
-  double scale_ = 1;
+  OutputFile file_;
+};
+
+/// The images of a run in a file of `PicturesWriter`. Each is read when it is asked for.
+class FramePictures {
+ public:
+  /// \param image_px size of the run's images.
+  /// \throws input::Error naming the file and its fault, also for pictures whose size differs
+  ///   from that made by `PicturesWriter`.
+  FramePictures(const std::filesystem::path& file, cv::Size image_px);
+
+  /// \param scale set to picture pixels per image pixel.
+  /// \throws input::Error; std::runtime_error for a damaged picture.
+  cv::Mat3b at(std::size_t position, double& scale) const;
+  std::size_t size() const { return starts_.size() - 1; }
+
+  /// \throws input::Error, OutputError
+  void copy_to(const std::filesystem::path& file) const;
+
+ private:
+  input::InputFile file_;
+  std::vector<std::uint64_t> starts_{0};  ///< of each picture in the file, then the file's end
+  double scale_;
 };
 
 }  // namespace lcs::bench

@@ -1,13 +1,12 @@
 #include "tools/output/result.h"
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include "tools/output/event_pictures.h"
 #include "tools/recording/warnings.h"
-#include "tools/scoring/figures_file.h"
+#include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {
 
@@ -30,54 +29,87 @@ ResultNames result_files() {
           "report.html", kHowMadeFile};
 }
 
-Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+Result::Result(const std::filesystem::path& target, const RunInfo& run, cv::Size image_px,
                const ResultOptions& options)
     : folder_(target, result_files()),
       keep_(options.keep),
+      image_px_(image_px),
+      scorer_(run),
       painter_(image_px, run),
       show_(options.show),
-      events_(options.events),
       kept_(options.kept),
       add_page_(options.add_page) {
-  if (keep_ == Keep::all) {
-    writer_.emplace(folder_.staging(), run, options.compressed, !options.truth_of_other);
+  const std::filesystem::path& folder = folder_.staging();
+  if (keep_ != Keep::figures) rows_.emplace(folder / kFramesFile, run);
+  if (options.events) events_.emplace(run);
+  if (keep_ == Keep::all || events_) {  // the events' pictures are painted from them at the end
+    writer_.emplace(folder, run, options.compressed, !options.truth_of_other);
   }
   if (options.video_frames_per_second) {
-    video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
-                   *options.video_frames_per_second);
+    video_.emplace(folder / kVideoFile, painter_.size_px(), *options.video_frames_per_second);
   }
 }
 
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
+  const FrameScore score = scorer_.add(frame);
+  if (rows_) rows_->write(frame, score.rebels);
+  if (events_) events_->add(frame, score.outcomes);
   if (writer_) writer_->write(frame);
   if (video_ || show_) {
     const cv::Mat3b sheet = painter_.paint(frame, image);
     if (video_) video_->write(sheet);
     if (show_ && !show_(sheet)) show_ = {};
   }
-  if (events_ && !kept_ && !image.empty()) own_pictures_.add(image);
+  if (events_ && !kept_ && !image.empty()) {
+    if (!own_pictures_) own_pictures_.emplace(folder_.staging() / kPicturesFile);
+    own_pictures_->write(image);
+  }
 }
 
-Metrics Result::finish(const Recording& run) {
+/// Writes the events with their pictures, and removes what was only kept for these.
+void Result::write_events_file() {
+  const std::filesystem::path& folder = folder_.staging();
+  std::optional<FramePictures> own;
+  if (own_pictures_) {
+    own_pictures_->close();
+    own.emplace(folder / kPicturesFile, image_px_);
+  }
+  const FramePictures* const pictures = kept_ ? kept_ : own ? &*own : nullptr;
+  std::vector<Event> events = events_->events(scorer_.detections());
+  const EventSums sums = sums_of(events);
+  keep_worst(events, kMostEvents);
+  if (pictures && pictures->size() > 0) {
+    RecordingReader frames(folder);
+    int next = 0;
+    for (const int shown : frames_shown(events)) {
+      for (; next < shown; ++next) frames.skip();
+      FrameRecord frame;
+      frames.next(frame);
+      ++next;
+      paint_views(frame, corner_outcomes(frame, scorer_.detections()), *pictures, events);
+    }
+    if (keep_ == Keep::all && kept_) kept_->copy_to(folder / kPicturesFile);
+  }
+  write_events(folder / kEventsFile, events, sums);
+  if (keep_ == Keep::all) return;
+  for (const std::filesystem::path& file :
+       {stored(folder, kLayersFile), stored(folder, kTruthFile), folder / kDetectorFile,
+        folder / kCameraFile, folder / kPicturesFile}) {
+    std::filesystem::remove(file);
+  }
+}
+
+Metrics Result::finish(const std::optional<sim::Warnings>& world) {
   if (writer_) writer_->close();
   if (video_) video_->close();
-  Metrics metrics = score(run);
-  write_metrics(folder_.staging() / kMetricsFile, metrics);
-  if (keep_ != Keep::figures) write_frames(folder_.staging() / kFramesFile, run);
-  if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
-  if (events_) {
-    const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
-    std::vector<Event> events = find_events(run, kAllEvents);
-    std::ranges::move(find_square_events(run, kAllEvents), std::back_inserter(events));
-    const EventSums sums = sums_of(events);
-    keep_worst(events, kMostEvents);
-    if (pictures.size() > 0) {
-      paint_events(run, pictures, events);
-      if (keep_ == Keep::all) pictures.write(folder_.staging() / kPicturesFile);
-    }
-    write_events(folder_.staging() / kEventsFile, events, sums);
-  }
-  if (add_page_) add_page_(folder_.staging(), metrics);
+  if (rows_) rows_->close();
+  const std::filesystem::path& folder = folder_.staging();
+  Metrics metrics = scorer_.metrics(world);
+  warned_ = scorer_.warned(world);
+  write_metrics(folder / kMetricsFile, metrics);
+  if (world) write_warnings(folder / kWarningsFile, warned_);
+  if (events_) write_events_file();
+  if (add_page_) add_page_(folder, metrics);
   return metrics;
 }
 

@@ -16,6 +16,8 @@
 #include "tools/output/frame_pictures.h"
 #include "tools/output/video.h"
 #include "tools/recording/recording_io.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/figures_file.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
@@ -61,15 +63,21 @@ class Result {
  public:
   /// \param run whose frames will be added.
   /// \throws OutputError for a target that cannot be written or contains other files.
-  Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+  Result(const std::filesystem::path& target, const RunInfo& run, cv::Size image_px,
          const ResultOptions& options);
 
-  /// \param image may be empty if no video is made or shown. \throws OutputError
+  /// Scores the frame and writes what belongs to it; nothing of it is kept but numbers.
+  /// \param image may be empty if no video is made or shown.
+  /// \throws OutputError; std::invalid_argument as `Scorer::add`.
   void add(const FrameRecord& frame, const cv::Mat3b& image);
 
-  /// Scores the run and writes the files that depend on all frames. The folder appears when the
-  /// output is committed. \throws OutputError
-  Metrics finish(const Recording& run);
+  /// Writes the files that depend on all frames. The folder appears when the output is committed.
+  /// \param world the simulation's warnings; absent without a simulation. \throws OutputError
+  Metrics finish(const std::optional<sim::Warnings>& world);
+
+  int frames() const { return scorer_.frames(); }
+  /// All warnings of the run, after `finish`.
+  const std::vector<Warned>& warned() const { return warned_; }
 
   /// After `finish` of both: takes the truth of the same frames from `other`, as one file for both.
   /// On another file system as a copy. \throws std::filesystem::filesystem_error
@@ -78,16 +86,22 @@ class Result {
   Output& output() { return folder_; }
 
  private:
+  void write_events_file();
+
   Output folder_;
   Keep keep_;
+  cv::Size image_px_;
+  Scorer scorer_;
+  std::vector<Warned> warned_;
+  std::optional<FramesWriter> rows_;
   std::optional<RecordingWriter> writer_;
   FramePainter painter_;
   std::optional<Video> video_;
   decltype(ResultOptions::show) show_;
-  bool events_;
+  std::optional<EventFinder> events_;
   const FramePictures* kept_;
+  std::optional<PicturesWriter> own_pictures_;
   decltype(ResultOptions::add_page) add_page_;
-  FramePictures own_pictures_;
 };
 
 }  // namespace lcs::bench

@@ -262,7 +262,7 @@ void bind_seen(py::module_& module) {
           "The truth of the frame; detectors must not use it.")
       .def("__repr__", [](const Frame& f) {
         return fmt::format("<lcs.Frame {} of {}: {} corners at {} s>", f.seen.record.index,
-                           f.run->recording.scenario, f.seen.record.corners_px.size(),
+                           f.run->info.scenario, f.seen.record.corners_px.size(),
                            seconds(f.seen.record.t_ns));
       });
 }
@@ -347,7 +347,7 @@ void bind_truth(py::module_& module) {
           "names",
           [](const Truth& t) {
             std::map<int, std::string> names;
-            for (const sim::Object& object : t.frame->run->recording.objects)
+            for (const sim::Object& object : t.frame->run->info.objects)
               names[object.id] = object.name;
             return names;
           },
@@ -382,16 +382,16 @@ Simulation::Simulation(std::shared_ptr<const Scenario> scenario)
   const OneThread one_thread;
   if (scenario->asked.recording) {
     auto playback = std::make_unique<replay::Playback>(scenario->asked);
-    run_->recording = playback->begin();
+    run_->info = playback->info();
     source_ = std::move(playback);
   } else {
     simulation_ = std::make_unique<sim::Simulation>(scenario->full);
-    run_->recording = bench::begin_recording(scenario->full, *simulation_);
+    run_->info = bench::run_info(scenario->full, *simulation_);
     auto frames = std::make_unique<bench::SimulatedFrames>(scenario->full, *simulation_);
     simulated_ = frames.get();
     source_ = std::move(frames);
   }
-  run_->recording.warnings = source_->warnings();
+  run_->info.warnings = source_->warnings();
   run_->scenario = std::move(scenario);
 }
 
@@ -431,7 +431,7 @@ std::shared_ptr<Frame> Simulation::next() {
     is_over = !seen;
     if (seen) frame->seen = std::move(*seen);
   }
-  run_->recording.warnings = source_->warnings();
+  run_->info.warnings = source_->warnings();
   if (is_over) return nullptr;
   if (simulated_) frame->observation = simulated_->observation();
   frame->run = run_;
@@ -467,7 +467,8 @@ void bind_frame(py::module_& module) {
       .def_property_readonly(
           "warnings",
           [](const Simulation& s) {
-            return bench::lines_of(bench::warnings_of(s.run().recording));
+            const bench::RunInfo& run = s.run().info;
+            return bench::lines_of(bench::WarningWatch(run.truth).warned(run.warnings));
           },
           "Problems so far, a line each: the rover or an actor ran into something, fell, or tipped "
           "over.");

@@ -17,7 +17,7 @@ namespace lcs::python {
 /// Data shared by all frames of a run.
 struct Run {
   std::shared_ptr<const Scenario> scenario;
-  bench::Recording recording;  ///< without frames; has the warnings up to now
+  bench::RunInfo info;  ///< with the warnings up to now
 };
 
 /// A frame's sensor data and truth. Immutable, because NumPy arrays are views of it.

@@ -209,42 +209,42 @@ class Scorer {
       }
     }
     if (!run_) {
-      run_ = frame.run;
-      recording_ = run_->recording;
-      recording_.detector = detector;
+      bench::RunInfo info = frame.run->info;
+      info.detector = detector;
+      detector_ = detector.name;
+      scorer_.emplace(info);
     }
-    recording_.frames.push_back(std::move(record));
+    scorer_->add(record);
+    run_ = frame.run;
   }
 
   /// The figures in the order of metrics.json.
   py::dict metrics() {
-    if (run_) recording_.warnings = run_->recording.warnings;
     py::dict figures;
-    for (const auto& [name, figure] : bench::score(recording_)) figures[name.c_str()] = figure;
+    for (const auto& [name, figure] : scorer_->metrics(world())) figures[name.c_str()] = figure;
     return figures;
   }
 
-  std::vector<std::string> warnings() {
-    if (run_) recording_.warnings = run_->recording.warnings;
-    return bench::lines_of(bench::warnings_of(recording_));
-  }
+  std::vector<std::string> warnings() { return bench::lines_of(scorer_->warned(world())); }
 
  private:
+  std::optional<sim::Warnings> world() const { return run_ ? run_->info.warnings : std::nullopt; }
+
   void require_next(const Frame& frame, const bench::DetectorInfo& detector) const {
     if (run_ && run_ != frame.run) {
       throw py::value_error("this frame is of another run; give each run a Scorer of its own");
     }
-    const std::size_t due = recording_.frames.size();
+    const int due = scorer_->frames();
     const int index = frame.seen.record.index;
-    if (static_cast<std::size_t>(index) != due) {
+    if (index != due) {
       throw py::value_error(fmt::format(
           "frame {} comes where frame {} is due; give all frames in order", index, due));
     }
-    if (run_ && recording_.detector.name != detector.name) {
+    if (run_ && detector_ != detector.name) {
       throw py::value_error(fmt::format(
           "some frames have a result of {} and this one has one of {}; give each detector a Scorer "
           "of its own",
-          recording_.detector.name, detector.name));
+          detector_, detector.name));
     }
   }
 
@@ -257,7 +257,8 @@ class Scorer {
   }
 
   std::shared_ptr<const Run> run_;  ///< null until a frame is added
-  bench::Recording recording_;
+  std::string detector_;
+  std::optional<bench::Scorer> scorer_{std::in_place, bench::RunInfo{}};
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "tools/files/output_file.h"
 #include "tools/recording/frame_detections.h"
@@ -19,12 +20,25 @@ struct Detections {
 
 /// \param sequence provides corners and truth; its camera is used to check the detections.
 /// \throws input::Error with file and line.
-Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
+Detections read_detections(const std::filesystem::path& csv, Recording sequence);
 
 inline constexpr const char* kDetectionsHeader = "frame,type";
 
-/// Writes a recording's verdicts and boxes in the same format. Reading them back reproduces the
-/// rebel and square metrics to the last bit. \throws OutputError
-void write_detections(const std::filesystem::path& csv, const Recording& recording);
+/// Writes a run's verdicts and boxes in the same format, frame by frame. Reading them back
+/// reproduces the rebel and square metrics to the last bit.
+class DetectionsWriter {
+ public:
+  /// \throws OutputError
+  DetectionsWriter(const std::filesystem::path& csv, const RunInfo& run);
+  /// \throws OutputError
+  void write(const FrameRecord& frame);
+  /// \throws OutputError
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+  std::optional<Intrinsics> camera_;
+  bool states_circles_;  ///< before the next frame, as it may have none
+};
 
 }  // namespace lcs::bench

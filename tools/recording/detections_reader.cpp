@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/files/csv.h"
@@ -63,13 +64,13 @@ class RowReader {
 
 }  // namespace
 
-Detections read_detections(const std::filesystem::path& csv, const Recording& sequence) {
+Detections read_detections(const std::filesystem::path& csv, Recording sequence) {
   // A thousand rows for each of a million frames.
   constexpr input::FileKind kDetectionsTable{64 * input::kGibibyte,
                                              "name a CSV file of detections"};
   input::InputFile file(csv, kDetectionsTable);
   Detections detections;
-  detections.recording = without_detections(sequence);
+  detections.recording = without_detections(std::move(sequence));
   detections.recording.detector = {.name = csv.stem().string(), .layered = false};
   RowReader reader(detections.recording);
   std::string line;

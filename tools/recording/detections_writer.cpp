@@ -54,14 +54,15 @@ std::string rows_of(const FrameRecord& frame, const std::optional<Intrinsics>& c
 
 }  // namespace
 
-void write_detections(const std::filesystem::path& csv, const Recording& recording) {
-  OutputFile file(csv);
-  file.write(fmt::format("{}\n", kDetectionsHeader));
-  if (recording.detector.circles && !recording.frames.empty()) {
-    file.write(fmt::format("{},circle\n", recording.frames.front().index));  // there may be none
-  }
-  for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame, recording.camera));
-  file.close();
+DetectionsWriter::DetectionsWriter(const std::filesystem::path& csv, const RunInfo& run)
+    : file_(csv), camera_(run.camera), states_circles_(run.detector.circles) {
+  file_.write(fmt::format("{}\n", kDetectionsHeader));
+}
+
+void DetectionsWriter::write(const FrameRecord& frame) {
+  if (states_circles_) file_.write(fmt::format("{},circle\n", frame.index));
+  states_circles_ = false;
+  file_.write(rows_of(frame, camera_));
 }
 
 }  // namespace lcs::bench

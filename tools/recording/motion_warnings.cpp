@@ -77,23 +77,23 @@ std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
 }
 
 /// Whether nearly all corners kept their place. False where corners are too dense to decide.
-bool stands(const FrameRecord& before, const FrameRecord& now) {
+bool stands(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vector2f> now) {
   constexpr double kNearlyAll = 0.6, kTimesChance = 2;
-  if (std::min(before.corners_px.size(), now.corners_px.size()) < kFewestCorners) return false;
-  const Places places(now.corners_px);
-  const std::vector<Pixel> corners = some(before.corners_px);
+  if (std::min(before.size(), now.size()) < kFewestCorners) return false;
+  const Places places(now);
+  const std::vector<Pixel> corners = some(before);
   const double chance = 0.5 * (places.share(corners, {11, 7}) + places.share(corners, {-9, -13}));
   const double share = places.share(corners, {0, 0});
   return share >= kNearlyAll && share >= kTimesChance * chance;
 }
 
 /// Whether most corners have moved by one vector of at least 3 px.
-bool shifted(const FrameRecord& before, const FrameRecord& now) {
+bool shifted(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vector2f> now) {
   constexpr int kReach_px = 48, kLeast_px = 3;
   constexpr double kMost = 0.5, kTimesOther = 1.6;
-  if (std::min(before.corners_px.size(), now.corners_px.size()) < kFewestCorners) return false;
-  const Places places(now.corners_px);
-  const std::vector<Pixel> corners = some(before.corners_px);
+  if (std::min(before.size(), now.size()) < kFewestCorners) return false;
+  const Places places(now);
+  const std::vector<Pixel> corners = some(before);
   double best = 0, sum = 0;
   int vectors = 0;
   constexpr int kStep_px = 2 * kSame_px + 1;
@@ -115,11 +115,6 @@ bool goes_straight(const EgoMotion& told) {
   const double side = told.v_C_mps.head<2>().norm();
   return told.dt_s > 0 && Eigen::AngleAxisd(told.R_cur_prev).angle() < kNoTurn_rad &&
          side <= 0.2 * std::abs(told.v_C_mps.z());
-}
-
-/// Seconds since the first frame.
-double time_of(const FrameRecord& frame, const Recording& recording) {
-  return 1e-9 * static_cast<double>(frame.t_ns - recording.frames.front().t_ns);
 }
 
 /// Parts of the picture, of 16, in which most corners are rebels; and those with corners.
@@ -144,103 +139,85 @@ std::pair<int, int> rebel_parts(const FrameRecord& frame) {
   return parts;
 }
 
-MotionWarning runaway_speed(const Recording& recording) {
-  MotionWarning warning{"runaway_speed", 0, ""};
-  for (const FrameRecord& frame : recording.frames) {
-    const double speed_mps = frame.motion.v_C_mps.norm();
-    if (!(speed_mps > kRunawaySpeed_mps)) continue;
-    if (++warning.count > 1) continue;
-    warning.text = fmt::format(
-        "the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's biases by a time at "
-        "rest, a start with its speed, or readings in m/s",
-        speed_mps, time_of(frame, recording));
-  }
-  return warning;
-}
-
-MotionWarning turn_not_told(const Recording& recording) {
-  constexpr std::int64_t kFewest = 5;
-  MotionWarning warning{"turn_not_told", 0, ""};
-  std::optional<double> first_s;
-  for (std::size_t k = 1; k < recording.frames.size(); ++k) {
-    const FrameRecord& frame = recording.frames[k];
-    if (!goes_straight(frame.motion) || !shifted(recording.frames[k - 1], frame)) continue;
-    ++warning.count;
-    if (!first_s) first_s = time_of(frame, recording);
-  }
-  if (warning.count < kFewest) return {warning.word, 0, ""};
-  warning.text = fmt::format(
-      "the whole picture turns in {} of {} frames, first at {:.2f} s, and no turn is told: give "
-      "the camera's poses or its IMU",
-      warning.count, recording.frames.size(), *first_s);
-  return warning;
-}
-
-MotionWarning still_camera(const Recording& recording) {
-  constexpr double kStep_m = 1, kNearlyAlways = 0.9;
-  constexpr std::int64_t kFewest = 3;
-  MotionWarning warning{"still_camera", 0, ""};
-  std::int64_t steps = 0;
-  std::optional<double> first_s;
-  double gone_m = 0;
-  for (std::size_t k = 1, from = 0; k < recording.frames.size(); ++k) {
-    const FrameRecord& frame = recording.frames[k];
-    gone_m += frame.motion.v_C_mps.norm() * std::max(0.0, frame.motion.dt_s);
-    if (gone_m < kStep_m) continue;
-    ++steps;
-    if (stands(recording.frames[from], frame)) {
-      ++warning.count;
-      if (!first_s) first_s = time_of(frame, recording);
-    }
-    from = k;
-    gone_m = 0;
-  }
-  const bool is_always =
-      static_cast<double>(warning.count) >= kNearlyAlways * static_cast<double>(steps);
-  if (warning.count < kFewest || !is_always) return {warning.word, 0, ""};
-  warning.text = fmt::format(
-      "the camera is told to move, and its pictures stand still, first at {:.2f} s: give the speed "
-      "of this recording, 0 for a camera that stands",
-      *first_s);
-  return warning;
-}
-
-MotionWarning many_rebels(const Recording& recording) {
-  MotionWarning warning{"many_rebels", 0, ""};
-  std::optional<double> first_s;
-  int rebel_cells = 0, cells = 0;
-  std::int64_t frames = 0;
-  for (const FrameRecord& frame : recording.frames) {
-    if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) continue;
-    ++frames;
-    const auto rebels = std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::rebel);
-    if (static_cast<double>(rebels) < kManyRebels * static_cast<double>(frame.verdicts.size())) {
-      continue;
-    }
-    ++warning.count;
-    if (!first_s) first_s = time_of(frame, recording);
-    const auto [rebel, all] = rebel_parts(frame);
-    rebel_cells += rebel;
-    cells += all;
-  }
-  if (2 * warning.count <= frames) return {warning.word, 0, ""};
-  constexpr double kWhole = 0.7;
-  const double share = cells > 0 ? static_cast<double>(rebel_cells) / cells : 0;
-  warning.text = fmt::format(
-      "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s, and most "
-      "corners in {:.0f} % of the picture's parts: {}",
-      100 * kManyRebels, warning.count, frames, *first_s, 100 * share,
-      share > kWhole ? "the motion or the focal length that is told is not the camera's"
-                     : "bodies that move may fill the view; else the motion or the focal length "
-                       "that is told is not the camera's");
-  return warning;
-}
-
 }  // namespace
 
-std::array<MotionWarning, 4> motion_warnings(const Recording& recording) {
-  return {runaway_speed(recording), turn_not_told(recording), still_camera(recording),
-          many_rebels(recording)};
+void MotionWatch::add(const FrameRecord& frame) {
+  constexpr double kStep_m = 1;
+  const bool is_first = frames_++ == 0;
+  if (is_first) start_ns_ = frame.t_ns;
+  const double t_s = 1e-9 * static_cast<double>(frame.t_ns - start_ns_);
+  const double speed_mps = frame.motion.v_C_mps.norm();
+  if (speed_mps > kRunawaySpeed_mps) {
+    if (runaway_.count == 0) runaway_mps_ = speed_mps;
+    runaway_.add(t_s);
+  }
+  if (is_first) {
+    stretch_px_ = frame.corners_px;
+  } else {
+    if (goes_straight(frame.motion) && shifted(previous_px_, frame.corners_px)) turns_.add(t_s);
+    gone_m_ += speed_mps * std::max(0.0, frame.motion.dt_s);
+    if (!(gone_m_ < kStep_m)) {
+      ++stretches_;
+      if (stands(stretch_px_, frame.corners_px)) stands_.add(t_s);
+      stretch_px_ = frame.corners_px;
+      gone_m_ = 0;
+    }
+  }
+  previous_px_ = frame.corners_px;
+
+  if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) return;
+  ++judged_;
+  const auto rebels = std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::rebel);
+  if (static_cast<double>(rebels) < kManyRebels * static_cast<double>(frame.verdicts.size())) {
+    return;
+  }
+  rebels_.add(t_s);
+  const auto [rebel, all] = rebel_parts(frame);
+  rebel_parts_ += rebel;
+  parts_ += all;
+}
+
+std::array<MotionWarning, 4> MotionWatch::warnings() const {
+  constexpr std::int64_t kFewestTurns = 5, kFewestStretches = 3;
+  constexpr double kNearlyAlways = 0.9, kWhole = 0.7;
+  std::array<MotionWarning, 4> all{
+      {{"runaway_speed"}, {"turn_not_told"}, {"still_camera"}, {"many_rebels"}}};
+  auto& [runaway, turn, still, many] = all;
+  if (runaway_.count > 0) {
+    runaway.count = runaway_.count;
+    runaway.text = fmt::format(
+        "the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's biases by a time at "
+        "rest, a start with its speed, or readings in m/s",
+        runaway_mps_, runaway_.first_s);
+  }
+  if (turns_.count >= kFewestTurns) {
+    turn.count = turns_.count;
+    turn.text = fmt::format(
+        "the whole picture turns in {} of {} frames, first at {:.2f} s, and no turn is told: give "
+        "the camera's poses or its IMU",
+        turns_.count, frames_, turns_.first_s);
+  }
+  const bool is_always =
+      static_cast<double>(stands_.count) >= kNearlyAlways * static_cast<double>(stretches_);
+  if (stands_.count >= kFewestStretches && is_always) {
+    still.count = stands_.count;
+    still.text = fmt::format(
+        "the camera is told to move, and its pictures stand still, first at {:.2f} s: give the "
+        "speed of this recording, 0 for a camera that stands",
+        stands_.first_s);
+  }
+  if (2 * rebels_.count > judged_) {
+    many.count = rebels_.count;
+    const double share = parts_ > 0 ? static_cast<double>(rebel_parts_) / parts_ : 0;
+    many.text = fmt::format(
+        "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s, and "
+        "most corners in {:.0f} % of the picture's parts: {}",
+        100 * kManyRebels, rebels_.count, judged_, rebels_.first_s, 100 * share,
+        share > kWhole ? "the motion or the focal length that is told is not the camera's"
+                       : "bodies that move may fill the view; else the motion or the focal length "
+                         "that is told is not the camera's");
+  }
+  return all;
 }
 
 }  // namespace lcs::bench

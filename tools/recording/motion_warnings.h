@@ -3,9 +3,11 @@
 /// only corners, verdicts and the estimated motion.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tools/recording/recording.h"
 
@@ -14,7 +16,7 @@ namespace lcs::bench {
 struct MotionWarning {
   const char* word;        ///< "warnings.WORD" is the metric
   std::int64_t count = 0;  ///< frames in which it occurred
-  std::string text;        ///< first occurrence and remedy; empty if it did not occur
+  std::string text = {};   ///< first occurrence and remedy; empty if it did not occur
 };
 
 /// Faster than any road vehicle: dead reckoning has diverged, or the unit is wrong.
@@ -23,7 +25,7 @@ inline constexpr double kRunawaySpeed_mps = 70;
 /// A larger share of rebels is implausible: most of the scene does not move by itself.
 inline constexpr double kManyRebels = 0.3;
 
-/// The four warnings, in this order:
+/// Watches a run for four warnings, in this order:
 ///
 /// * runaway_speed: estimated speeds above `kRunawaySpeed_mps`;
 /// * turn_not_told: most corners have moved by the same vector of 3 px or more, but the estimated
@@ -32,6 +34,34 @@ inline constexpr double kManyRebels = 0.3;
 ///   reported from three such stretches on, if they are nine in ten;
 /// * many_rebels: at least the share `kManyRebels` of the corners are rebels; reported if this
 ///   holds in more than half of the frames.
-std::array<MotionWarning, 4> motion_warnings(const Recording& recording);
+class MotionWatch {
+ public:
+  void add(const FrameRecord& frame);
+  /// Of the frames so far.
+  std::array<MotionWarning, 4> warnings() const;
+
+ private:
+  using Corners = std::vector<Eigen::Vector2f>;
+  /// Frames with a sign, and the first of them.
+  struct Sign {
+    std::int64_t count = 0;
+    double first_s = 0;
+
+    void add(double t_s) {
+      if (count++ == 0) first_s = t_s;
+    }
+  };
+
+  Sign runaway_, turns_, stands_, rebels_;
+  std::int64_t frames_ = 0;
+  std::int64_t start_ns_ = 0;        ///< time of the first frame
+  double runaway_mps_ = 0;           ///< the first speed above `kRunawaySpeed_mps`
+  Corners previous_px_;              ///< corners of the previous frame
+  Corners stretch_px_;               ///< corners at the start of the present stretch
+  double gone_m_ = 0;                ///< way in this stretch
+  std::int64_t stretches_ = 0;       ///< finished ones
+  std::int64_t judged_ = 0;          ///< frames that are judged by their rebels
+  int rebel_parts_ = 0, parts_ = 0;  ///< of the picture, in frames with many rebels
+};
 
 }  // namespace lcs::bench

@@ -83,7 +83,8 @@ struct DetectorInfo {
   bool circles = true;
 };
 
-struct Recording {
+/// The facts that all frames of a run share.
+struct RunInfo {
   std::string scenario;
   std::uint64_t seed = 0;
   /// `scenario::Scenario::world`, to detect later changes of the scenario's world; empty if there
@@ -95,16 +96,22 @@ struct Recording {
   std::optional<Intrinsics> camera = {};  ///< as given to detectors
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
-  std::vector<FrameRecord> frames;  ///< by index
   /// The simulation's warnings in the whole run; absent without a simulation.
   std::optional<sim::Warnings> warnings = {};
+};
+
+/// A whole run in memory, about 0.2 MB a frame. A run of unknown length is handed on frame by
+/// frame.
+struct Recording : RunInfo {
+  std::vector<FrameRecord> frames;  ///< by index
 };
 
 /// Sets the truth of a frame's corners where no simulation provides it.
 /// \param frame contains its corners. \param truth not `all`.
 void set_corner_truth(Truth truth, FrameRecord& frame);
 
-/// Copies the detector's input and the truth, without verdicts, layers and times.
-Recording without_detections(const Recording& recording);
+/// Moves the detector's input and the truth on, without verdicts, layers, masks and times.
+FrameRecord without_detections(FrameRecord frame);
+Recording without_detections(Recording recording);
 
 }  // namespace lcs::bench

@@ -18,7 +18,9 @@
 /// recording scores the same. JSON has no infinity: null represents +inf (the depth of the sky).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,8 +53,25 @@ std::string given_line(const FrameRecord& frame, const EgoMotion* motion);
 ///@{
 std::string objects_line(const std::vector<sim::Object>& objects);
 std::string seen_line(const FrameRecord& frame);
-/// \return objects and frames. \throws std::runtime_error with file and line.
-Recording read_seen(const std::filesystem::path& file);
+/// Reads such a file frame by frame.
+class SeenReader {
+ public:
+  /// \throws std::runtime_error with file and line.
+  explicit SeenReader(const std::filesystem::path& file);
+  ~SeenReader();
+  SeenReader(SeenReader&&) noexcept;
+
+  const std::vector<sim::Object>& objects() const { return objects_; }
+
+  /// The frame of this time; null if there is none. The times of successive calls must grow.
+  /// \throws std::runtime_error with file and line, also for times in the file that do not grow.
+  const FrameRecord* at(std::int64_t t_ns);
+
+ private:
+  std::unique_ptr<class LineReader> lines_;
+  std::vector<sim::Object> objects_;
+  std::optional<FrameRecord> frame_;  ///< last one read
+};
 ///@}
 
 /// {"model": "pinhole", "focal_px": f, "centre_px": [x, y], "width_px": w, "height_px": h}
@@ -62,9 +81,9 @@ std::string camera_json(const Intrinsics& camera);
 /// to detectors, and `detector.json`.
 class RecordingWriter {
  public:
-  /// \param run provides the header; its frames are not written here. \throws OutputError
-  RecordingWriter(const std::filesystem::path& folder, const Recording& run,
-                  bool compressed = false, bool with_truth = true);
+  /// \throws OutputError
+  RecordingWriter(const std::filesystem::path& folder, const RunInfo& run, bool compressed = false,
+                  bool with_truth = true);
 
   /// \throws OutputError; std::invalid_argument as `layers_line`.
   void write(const FrameRecord& frame);
@@ -76,13 +95,33 @@ class RecordingWriter {
   std::optional<TextFile> truth_;
 };
 
-/// Reads both files, and the warnings beside them if present. \throws std::runtime_error with file
-/// and line.
+/// Reads both files frame by frame, and the warnings beside them if present.
+class RecordingReader {
+ public:
+  /// \throws std::runtime_error with file and line.
+  explicit RecordingReader(const std::filesystem::path& folder);
+  ~RecordingReader();
+  RecordingReader(const RecordingReader&) = delete;
+  RecordingReader& operator=(const RecordingReader&) = delete;
+
+  const RunInfo& run() const { return run_; }
+
+  /// \return false after the last frame. \throws std::runtime_error with file and line.
+  bool next(FrameRecord& frame);
+  /// As `next`, without parsing the frame.
+  bool skip();
+
+ private:
+  RunInfo run_;
+  std::unique_ptr<class LineReader> layers_, truth_;
+};
+
+/// The whole recording. \throws as `RecordingReader`.
 Recording read_recording(const std::filesystem::path& folder);
 
 /// Reads only the header line of `truth.jsonl`: scenario, seed, origin and detector of a run.
 /// \throws std::runtime_error with file and line.
-Recording read_without_frames(const std::filesystem::path& folder);
+RunInfo read_run_info(const std::filesystem::path& folder);
 
 /// Reads the object truth of single frames without parsing the others: in milliseconds.
 /// \param frames indices from 0, not decreasing; repetitions are allowed.

@@ -327,7 +327,7 @@ void read_detector(const Json& json, DetectorInfo& detector) {
   read_member(json, "circles", detector.circles);
 }
 
-void read_header(const Json& json, Recording& recording) {
+void read_header(const Json& json, RunInfo& recording) {
   read_member(json, "scenario", recording.scenario);
   read_member(json, "seed", recording.seed);
   if (json.contains("detector")) read_detector(json, recording.detector);  // before detector.json
@@ -352,6 +352,8 @@ void read_header(const Json& json, Recording& recording) {
 // About 100 kB a frame, for hundreds of thousands of frames.
 constexpr input::FileKind kRecordingFile{64 * input::kGibibyte,
                                          "name the folder of a whole run, or run it again"};
+
+}  // namespace
 
 /// Passes one parsed line after the other to its user, and adds file and line to errors.
 class LineReader {
@@ -379,7 +381,9 @@ class LineReader {
   std::string text_;
 };
 
-void read_detector_of(const std::filesystem::path& folder, Recording& recording) {
+namespace {
+
+void read_detector_of(const std::filesystem::path& folder, RunInfo& recording) {
   if (!std::filesystem::exists(folder / kDetectorFile)) return;
   LineReader file(folder / kDetectorFile);
   if (!file.next([&](const Json& json) { read_detector(json, recording.detector); })) {
@@ -397,75 +401,100 @@ std::filesystem::path stored(const std::filesystem::path& folder, const char* na
                                                                                 : plain;
 }
 
-Recording read_recording(const std::filesystem::path& folder) {
-  Recording recording;
+RecordingReader::~RecordingReader() = default;
+
+RecordingReader::RecordingReader(const std::filesystem::path& folder)
+    : layers_(std::make_unique<LineReader>(stored(folder, kLayersFile))),
+      truth_(std::make_unique<LineReader>(stored(folder, kTruthFile))) {
   input::note_input(folder);
-  LineReader layers(stored(folder, kLayersFile));
+  if (!truth_->next([&](const Json& json) { read_header(json, run_); })) truth_->fail("is empty");
+  read_detector_of(folder, run_);
+  run_.warnings = world_warnings(folder);
+  if (!std::filesystem::exists(folder / kCameraFile)) return;
+  LineReader file(folder / kCameraFile);
+  const bool is_there = file.next([&](const Json& json) {
+    Intrinsics& camera = run_.camera.emplace();
+    read_member(json, "focal_px", camera.focal_px);
+    read_member_array(json, "centre_px", {camera.centre_px.data(), 2});
+    for (const auto& [key, side] :
+         {std::pair("width_px", &camera.width_px), std::pair("height_px", &camera.height_px)}) {
+      read_member(json, key, *side);
+      within(key, [&, side = side] {
+        require(*side > 0 && *side <= kLongest_px, "the side of a picture");
+      });
+    }
+  });
+  if (!is_there) file.fail("is empty");
+}
+
+bool RecordingReader::next(FrameRecord& frame) {
+  frame = {};
+  if (!layers_->next([&](const Json& json) { read_layers(json, frame); })) {
+    if (truth_->next([](const Json&) {})) layers_->fail("ends before the truth does");
+    return false;
+  }
+  if (!truth_->next([&](const Json& json) { read_truth(json, frame); })) {
+    truth_->fail("ends before the layers do");
+  }
+  return true;
+}
+
+bool RecordingReader::skip() {
+  const bool is_there = layers_->skip();
+  if (truth_->skip() != is_there) {
+    (is_there ? truth_ : layers_)->fail("ends before the other file does");
+  }
+  return is_there;
+}
+
+Recording read_recording(const std::filesystem::path& folder) {
+  RecordingReader reader(folder);
+  Recording recording{reader.run(), {}};
+  for (FrameRecord frame; reader.next(frame);) recording.frames.push_back(std::move(frame));
+  return recording;
+}
+
+RunInfo read_run_info(const std::filesystem::path& folder) {
+  RunInfo run;
   LineReader truth(stored(folder, kTruthFile));
-  const bool has_header = truth.next([&](const Json& json) { read_header(json, recording); });
-  if (!has_header) truth.fail("is empty");
-  read_detector_of(folder, recording);
-  recording.warnings = world_warnings(folder);
-  if (std::filesystem::exists(folder / kCameraFile)) {
-    LineReader file(folder / kCameraFile);
-    const bool is_there = file.next([&](const Json& json) {
-      Intrinsics& camera = recording.camera.emplace();
-      read_member(json, "focal_px", camera.focal_px);
-      read_member_array(json, "centre_px", {camera.centre_px.data(), 2});
-      for (const auto& [key, side] :
-           {std::pair("width_px", &camera.width_px), std::pair("height_px", &camera.height_px)}) {
-        read_member(json, key, *side);
-        within(key, [&, side = side] {
-          require(*side > 0 && *side <= kLongest_px, "the side of a picture");
-        });
+  if (!truth.next([&](const Json& json) { read_header(json, run); })) truth.fail("is empty");
+  read_detector_of(folder, run);
+  return run;
+}
+
+SeenReader::~SeenReader() = default;
+SeenReader::SeenReader(SeenReader&&) noexcept = default;
+
+SeenReader::SeenReader(const std::filesystem::path& file)
+    : lines_(std::make_unique<LineReader>(file)) {
+  if (!lines_->next(
+          [&](const Json& json) { objects_ = read_columns<sim::Object>(json, "objects"); })) {
+    lines_->fail("is empty");
+  }
+}
+
+const FrameRecord* SeenReader::at(std::int64_t t_ns) {
+  while (!frame_ || frame_->t_ns < t_ns) {
+    FrameRecord frame;
+    const bool is_there = lines_->next([&](const Json& json) {
+      read_member(json, "index", frame.index);
+      read_member(json, "t_ns", frame.t_ns);
+      for (const Place& place : read_columns<Place>(json, "corners")) {
+        frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
+      }
+      frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
+      frame.object_truth = read_objects(json);
+      if (frame.corner_truth.size() != frame.corners_px.size()) {
+        throw std::runtime_error("truth is of another number of corners");
+      }
+      if (frame_ && frame.t_ns <= frame_->t_ns) {
+        throw std::runtime_error("t_ns is not later than in the line before");
       }
     });
-    if (!is_there) file.fail("is empty");
+    if (!is_there) return nullptr;
+    frame_ = std::move(frame);
   }
-
-  while (true) {
-    FrameRecord frame;
-    if (!layers.next([&](const Json& json) { read_layers(json, frame); })) break;
-    if (!truth.next([&](const Json& json) { read_truth(json, frame); })) {
-      truth.fail("ends before the layers do");
-    }
-    recording.frames.push_back(std::move(frame));
-  }
-  if (truth.next([](const Json&) {})) layers.fail("ends before the truth does");
-  return recording;
-}
-
-Recording read_without_frames(const std::filesystem::path& folder) {
-  Recording recording;
-  LineReader truth(stored(folder, kTruthFile));
-  if (!truth.next([&](const Json& json) { read_header(json, recording); })) truth.fail("is empty");
-  read_detector_of(folder, recording);
-  return recording;
-}
-
-Recording read_seen(const std::filesystem::path& file) {
-  Recording recording;
-  LineReader lines(file);
-  if (!lines.next([&](const Json& json) {
-        recording.objects = read_columns<sim::Object>(json, "objects");
-      })) {
-    lines.fail("is empty");
-  }
-  while (lines.next([&](const Json& json) {
-    FrameRecord& frame = recording.frames.emplace_back();
-    read_member(json, "index", frame.index);
-    read_member(json, "t_ns", frame.t_ns);
-    for (const Place& place : read_columns<Place>(json, "corners")) {
-      frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
-    }
-    frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
-    frame.object_truth = read_objects(json);
-    if (frame.corner_truth.size() != frame.corners_px.size()) {
-      throw std::runtime_error("truth is of another number of corners");
-    }
-  })) {
-  }
-  return recording;
+  return frame_->t_ns == t_ns ? &*frame_ : nullptr;
 }
 
 std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,

@@ -239,7 +239,7 @@ std::string line(const FrameRecord& frame, Content&& append_content) {
   }
 }
 
-std::string header_line(const Recording& run) {
+std::string header_line(const RunInfo& run) {
   std::string out = "{";
   append_key(out, "scenario");
   append(out, run.scenario);
@@ -364,7 +364,7 @@ static std::string detector_json(const DetectorInfo& detector) {
   return out + '}';
 }
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run,
+RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const RunInfo& run,
                                  bool compressed, bool with_truth)
     : layers_(folder / kLayersFile, compressed) {
   if (with_truth) {

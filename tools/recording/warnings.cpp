@@ -2,52 +2,41 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
-#include "tools/recording/motion_warnings.h"
 
 namespace lcs::bench {
-namespace {
+void WarningWatch::add(const FrameRecord& frame) {
+  if (frames_++ == 0) start_ns_ = frame.t_ns;
+  if (frame.corners_px.size() < kFewCorners && few_++ == 0) few_ns_ = frame.t_ns;
+  if (is_recorded_) motion_.add(frame);
+}
 
-constexpr const char* kFewCornersWord = "few_corners";
-
-Warned few_corners(const Recording& recording) {
-  const auto has_few = [](const FrameRecord& frame) {
-    return frame.corners_px.size() < kFewCorners;
-  };
-  const auto& frames = recording.frames;
-  const std::int64_t few = std::count_if(frames.begin(), frames.end(), has_few);
-  Warned warned{kFewCornersWord, 0, ""};
-  if (frames.empty()) warned.count.reset();
-  if (2 * few <= std::ssize(frames)) return warned;
-  const auto first = std::find_if(frames.begin(), frames.end(), has_few);
-  warned.count = few;
+Warned WarningWatch::few_corners() const {
+  Warned warned{"few_corners", 0, ""};
+  if (frames_ == 0) warned.count.reset();
+  if (2 * few_ <= frames_) return warned;
+  warned.count = few_;
   warned.text = fmt::format(
       "fewer than {} corners are in {} of {} frames, first at {:.2f} s: see what the camera sees "
       "(video.mp4), or lower corners.threshold",
-      kFewCorners, few, frames.size(),
-      1e-9 * static_cast<double>(first->t_ns - frames.front().t_ns));
+      kFewCorners, few_, frames_, 1e-9 * static_cast<double>(few_ns_ - start_ns_));
   return warned;
 }
 
-}  // namespace
-
-std::vector<Warned> warnings_of(const Recording& recording) {
+std::vector<Warned> WarningWatch::warned(const std::optional<sim::Warnings>& world) const {
   std::vector<Warned> all;
   for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
     Warned& warned = all.emplace_back(Warned{sim::kWarnings[i].word, std::nullopt, ""});
-    if (!recording.warnings) continue;
-    const sim::Warnings::Met& met = recording.warnings->of(static_cast<sim::Warning>(i));
+    if (!world) continue;
+    const sim::Warnings::Met& met = world->of(static_cast<sim::Warning>(i));
     warned.count = met.count;
     warned.text = met.first;
   }
-  all.push_back(few_corners(recording));
-  const bool is_recorded = recording.truth != Truth::all && !recording.frames.empty();
-  for (const MotionWarning& warning : motion_warnings(is_recorded ? recording : Recording{})) {
+  all.push_back(few_corners());
+  for (const MotionWarning& warning : motion_.warnings()) {
     all.push_back({warning.word, warning.count, warning.text});
-    if (!is_recorded) all.back().count.reset();
+    if (!is_recorded_ || frames_ == 0) all.back().count.reset();
   }
   return all;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/world/warnings.h"
+#include "tools/recording/motion_warnings.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {
@@ -25,8 +26,25 @@ struct Warned {
   std::string text;                   ///< first occurrence and remedy; empty if it did not occur
 };
 
-/// One entry for each warning, in a fixed order.
-std::vector<Warned> warnings_of(const Recording& recording);
+/// Watches the frames of a run for warnings.
+class WarningWatch {
+ public:
+  explicit WarningWatch(Truth truth) : is_recorded_(truth != Truth::all) {}
+
+  void add(const FrameRecord& frame);
+
+  /// One entry for each warning, in a fixed order, of the frames so far.
+  /// \param world the simulation's warnings; absent without a simulation.
+  std::vector<Warned> warned(const std::optional<sim::Warnings>& world) const;
+
+ private:
+  Warned few_corners() const;
+
+  bool is_recorded_;
+  MotionWatch motion_;
+  std::int64_t frames_ = 0, few_ = 0;       ///< all, and those with few corners
+  std::int64_t start_ns_ = 0, few_ns_ = 0;  ///< times of the first of each
+};
 
 /// One readable line for each warning that occurred.
 std::vector<std::string> lines_of(const std::vector<Warned>& warnings);

@@ -260,7 +260,7 @@ std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures)
       return stated(made.origin, made.name);
     }
     if (std::error_code none; fs::exists(bench::stored(folder, bench::kLayersFile), none)) {
-      const bench::Recording run = bench::read_without_frames(folder);
+      const bench::RunInfo run = bench::read_run_info(folder);
       return stated(run.origin, run.scenario);
     }
   }

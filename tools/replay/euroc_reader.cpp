@@ -371,7 +371,7 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
     const fs::path truth_file =
         (is_first ? asked.path : asked.path / camera) / sequence::kTruthFile;
     if (asked.every == 1 && fs::exists(truth_file)) {
-      recorded.truth = bench::read_seen(truth_file);
+      recorded.truth.emplace(truth_file);
     }
     if (!motion_is_asked(asked)) move_as_run(mav, camera, *exact, recorded);
     return recorded;

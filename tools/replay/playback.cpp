@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/pictures/picture_file.h"
+#include "tools/files/csv.h"
 #include "tools/input/message.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -29,11 +30,6 @@ Playback::Playback(const scenario::Scenario& asked)
       truth_(asked.recording->nothing_moves ? bench::Truth::nothing_moves
              : recorded_.truth              ? bench::Truth::all
                                             : bench::Truth::unknown) {
-  if (truth_ == bench::Truth::all) {
-    for (const bench::FrameRecord& frame : recorded_.truth->frames) {
-      truth_of_[std::to_string(frame.t_ns)] = &frame;
-    }
-  }
   take_settings();
   look_at_first_picture();
   require_events();
@@ -152,15 +148,15 @@ void Playback::read_mask() {
   mask_ = grey > kWhite;
 }
 
-bench::Recording Playback::begin() const {
-  bench::Recording recording;
-  recording.scenario = scenario_.name;
-  recording.seed = scenario_.seed;
-  recording.world = scenario_.world;
-  recording.origin = recorded_.settings.origin;
-  recording.truth = truth_;
-  if (truth_ == bench::Truth::all) recording.objects = recorded_.truth->objects;
-  return recording;
+bench::RunInfo Playback::info() const {
+  bench::RunInfo run;
+  run.scenario = scenario_.name;
+  run.seed = scenario_.seed;
+  run.world = scenario_.world;
+  run.origin = recorded_.settings.origin;
+  run.truth = truth_;
+  if (truth_ == bench::Truth::all) run.objects = recorded_.truth->objects();
+  return run;
 }
 
 bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
@@ -183,7 +179,7 @@ bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
   return false;
 }
 
-bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const {
+bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const {
   if (!mask_.empty()) {
     std::erase_if(corners_px, [&](const Eigen::Vector2f& px) {
       return mask_(cvRound(px.y()), cvRound(px.x())) != 0;
@@ -191,7 +187,7 @@ bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& i
   }
   if (rectifier_->is_pinhole()) return false;
   rectifier_->rectify(corners_px);
-  rectifier_->rectify(image);
+  rectifier_->rectify(picture);
   return true;
 }
 
@@ -200,9 +196,10 @@ void Playback::label_by_truth(const RecordedFrame& recorded, bench::FrameRecord&
   frame.corner_truth.assign(frame.corners_px.size(), {});
   corners_ += static_cast<int>(frame.corners_px.size());
   untold_ += static_cast<int>(frame.corners_px.size());
-  const auto found = truth_of_.find(recorded.picture.stem().string());
-  if (found == truth_of_.end()) return;
-  const bench::FrameRecord& truth = *found->second;
+  const auto t_ns = bench::number_in<std::int64_t>(recorded.picture.stem().native());
+  const bench::FrameRecord* const found = t_ns ? recorded_.truth->at(*t_ns) : nullptr;
+  if (found == nullptr) return;
+  const bench::FrameRecord& truth = *found;
   std::map<std::pair<float, float>, std::size_t> places;
   for (std::size_t i = 0; i < truth.corners_px.size(); ++i) {
     places[{truth.corners_px[i].x(), truth.corners_px[i].y()}] = i;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,12 +27,12 @@ class Playback : public bench::FrameSource {
   const scenario::Scenario& scenario() const { return scenario_; }
   const sim::Pinhole& camera() const { return rectifier_->camera(); }
 
-  /// A recording of the scenario, still without frames.
-  bench::Recording begin() const;
+  /// The facts of a run of the scenario.
+  bench::RunInfo info() const;
 
   bool next(bench::FrameRecord& frame, cv::Mat3b& image) override;
   std::span<const sim::Event> events() const override { return events_; }
-  bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const override;
+  bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const override;
   void label(bench::FrameRecord& frame) override;
   Diagnostics diagnostics() const override;
 
@@ -54,8 +53,7 @@ class Playback : public bench::FrameSource {
   Recorded recorded_;
   PictureStream pictures_;
   std::optional<sim::Rectifier> rectifier_;
-  bench::Truth truth_;                                         ///< of corners
-  std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, if all is known
+  bench::Truth truth_;            ///< of corners
   int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth
   bench::Labels labels_;          ///< of moving objects, if present
   cv::Mat1b mask_;                ///< empty, or non-zero at ignored pixels

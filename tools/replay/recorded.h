@@ -13,7 +13,7 @@
 #include "scenarios/scenario.h"
 #include "sim/camera/optics.h"
 #include "sim/events/event.h"
-#include "tools/recording/recording.h"
+#include "tools/recording/recording_io.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/picture_reader.h"
 
@@ -71,7 +71,7 @@ struct Recorded {
   }();
   /// The truth of corners and objects, if known. Each of its frames belongs to the picture named by
   /// its time.
-  std::optional<bench::Recording> truth;
+  std::optional<bench::SeenReader> truth;
   std::unique_ptr<MotionSource> motion;  ///< null: the layout has no motion of the camera
   std::vector<std::string> lacks;        ///< inputs that only the user can provide, and their keys
   Tally tally;

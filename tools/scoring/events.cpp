@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "tools/recording/box.h"
 #include "tools/scoring/score_rebels.h"
@@ -53,19 +54,37 @@ constexpr std::array<EventKindText, 4> kSteps{{
     {"in_square", "edges in a square"},
 }};
 
-using Outcomes = std::vector<std::vector<CornerOutcome>>;
-
-/// The part of an event in one frame.
+/// The part of an event in one frame, or the sum of several.
 struct Part {
-  std::vector<std::size_t> corners;  // the missed or false ones
-  int counted_corners = 0;
-  int circles = 0;
+  int corners = 0;  // the missed or false ones
+  int radial_corners = 0, counted_corners = 0, circles = 0;
+  std::map<Reason, int> reasons;
   Box box;
-  bool is_of_squares = false;  // whether it is an error of squares
+  std::optional<EventKind> cause;   // of a fault of squares
+  std::map<SquareStep, int> steps;  // of its object's corners
+
+  bool is_error() const { return corners > 0 || circles > 0 || cause; }
 };
 
-/// Parts by the frame's position in the recording.
-using Parts = std::map<std::size_t, Part>;
+template <class Counts>
+void add_to(Counts& sum, const Counts& counts) {
+  for (const auto& [key, count] : counts) sum[key] += count;
+}
+
+void add_to(Part& sum, const Part& part) {
+  sum.corners += part.corners;
+  sum.radial_corners += part.radial_corners;
+  sum.counted_corners += part.counted_corners;
+  sum.circles += part.circles;
+  add_to(sum.reasons, part.reasons);
+  add_to(sum.steps, part.steps);
+}
+
+void add_corner(const FrameRecord& frame, std::size_t i, Part& part) {
+  ++part.corners;
+  part.radial_corners += frame.corner_truth[i].radial;
+  ++part.reasons[frame.reasons.empty() ? Reason::unknown : frame.reasons.at(i)];
+}
 
 /// The object's box in pixel centres, both ends included.
 std::optional<Box> box_in(const FrameRecord& frame, int object) {
@@ -77,52 +96,67 @@ std::optional<Box> box_in(const FrameRecord& frame, int object) {
   return std::nullopt;
 }
 
-Box box_round(const FrameRecord& frame, const std::vector<std::size_t>& corners) {
-  Box box;
-  for (const std::size_t i : corners) box.extend(frame.corners_px[i].cast<double>());
-  return box;
-}
-
-std::vector<std::pair<Reason, int>> reasons_of(const Recording& recording, const Parts& parts) {
-  std::map<Reason, int> counts;
-  for (const auto& [position, part] : parts) {
-    const FrameRecord& frame = recording.frames[position];
-    for (const std::size_t i : part.corners) {
-      ++counts[frame.reasons.empty() ? Reason::unknown : frame.reasons.at(i)];
-    }
-  }
-  std::vector<std::pair<Reason, int>> sorted(counts.begin(), counts.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+/// The counts, largest first.
+template <class Cause>
+std::vector<std::pair<Cause, int>> by_count(const std::map<Cause, int>& counts) {
+  std::vector<std::pair<Cause, int>> sorted(counts.begin(), counts.end());
+  std::ranges::stable_sort(sorted, std::greater(), &std::pair<Cause, int>::second);
   return sorted;
 }
 
-EventView view_of(const FrameRecord& frame, const Box& box) {
-  return {.frame = frame.index,
-          .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-          .centre_px = box.center(),
-          .half_size_px = 0.5 * box.sizes(),
-          .jpeg_base64 = ""};
-}
+/// All of a frame that the views of events show.
+struct Moment {
+  std::size_t position = 0;  // in the run
+  int frame = 0;
+  std::int64_t t_ns = 0;
+  std::map<int, Box> boxes;  // by object
 
-/// Evenly spaced frames of the event, preceded and followed by one frame outside it.
-std::vector<EventView> views_of(const Recording& recording, const Event& event,
-                                const Parts& parts) {
-  std::vector<EventView> all;
-  const auto aside = [&](std::size_t position, const Box& box) {
-    const FrameRecord& frame = recording.frames[position];
-    if (event.object == 0) all.push_back(view_of(frame, box));
-    if (const auto now = box_in(frame, event.object)) all.push_back(view_of(frame, *now));
-  };
-  const auto& [first, first_part] = *parts.begin();
-  const auto& [last, last_part] = *parts.rbegin();
-  if (first > 0) aside(first - 1, first_part.box);
-  for (const auto& [position, part] : parts) {
-    if (part.corners.empty() && part.circles == 0 && !part.is_of_squares) continue;
-    all.push_back(view_of(recording.frames[position], part.box));
+  Moment(std::size_t place, const FrameRecord& record)
+      : position(place), frame(record.index), t_ns(record.t_ns) {
+    for (const sim::ObjectTruth& truth : record.object_truth) {
+      boxes.try_emplace(truth.object, *box_in(record, truth.object));
+    }
   }
-  if (last + 1 < recording.frames.size()) aside(last + 1, last_part.box);
 
+  EventView view(const Box& box) const {
+    return {.frame = frame,
+            .t_s = static_cast<double>(t_ns) * 1e-9,
+            .centre_px = box.center(),
+            .half_size_px = 0.5 * box.sizes(),
+            .jpeg_base64 = ""};
+  }
+};
+
+/// The last frame, and the one before it.
+struct Moments {
+  std::optional<Moment> before, now;
+};
+
+/// An event as it grows.
+struct Run {
+  int first_frame = 0, last_frame = 0;
+  std::size_t last = 0;  // position
+  int frames = 0;        // of which each has a part
+  Part sum;
+  Box last_box;
+  std::map<EventKind, int> causes;      // frames with an error of squares
+  std::vector<EventView> views;         // of the frame before the event, then of its errors
+  std::optional<EventView> view_after;  // of the frame after the event
+
+  void add(const Part& part, const Moment& now) {
+    if (part.is_error()) views.push_back(now.view(part.box));
+    if (part.cause) ++causes[*part.cause];
+    add_to(sum, part);
+    last_box = part.box;
+    last = now.position;
+    last_frame = now.frame;
+    ++frames;
+    view_after.reset();
+  }
+};
+
+/// Up to `kViews` of the views, evenly spaced.
+std::vector<EventView> some_of(const std::vector<EventView>& all) {
   if (all.size() <= kViews) return all;
   std::vector<EventView> some;
   for (int i = 0; i < kViews; ++i) {
@@ -132,98 +166,98 @@ std::vector<EventView> views_of(const Recording& recording, const Event& event,
   return some;
 }
 
-Event event_of(const Recording& recording, EventKind kind, int object, const Parts& parts) {
-  Event event;
-  event.kind = kind;
-  event.object = object;
-  for (const sim::Object& named : recording.objects) {
-    if (named.id == object) event.object_name = named.name;
-  }
-  event.first_frame = recording.frames[parts.begin()->first].index;
-  event.last_frame = recording.frames[parts.rbegin()->first].index;
-  for (const auto& [position, part] : parts) {
-    event.corners += static_cast<int>(part.corners.size());
-    event.counted_corners += part.counted_corners;
-    event.circles += part.circles;
-    const auto& truth = recording.frames[position].corner_truth;
-    event.radial_corners += static_cast<int>(std::ranges::count_if(
-        part.corners, [&](std::size_t corner) { return truth[corner].radial; }));
-  }
-  event.reasons = reasons_of(recording, parts);
-  event.views = views_of(recording, event, parts);
-  return event;
-}
+/// The errors of one object, one square or one group of corners: a new run begins where more than
+/// `kGap` frames pass without an error.
+class Errors {
+ public:
+  /// \param object 0: none, the views show the place.
+  explicit Errors(int object) : object_(object) {}
 
-/// Splits the parts where more than `kGap` frames pass without a part that `is_bad`. Good parts
-/// between bad ones are kept.
-template <class IsBad>
-std::vector<Parts> runs_of(const Parts& parts, IsBad&& is_bad) {
-  std::vector<Parts> runs;
-  Parts between;
-  std::optional<std::size_t> last;
-  for (const auto& [position, part] : parts) {
-    if (!is_bad(part)) {
-      between.emplace(position, part);
-      continue;
+  /// \param is_bad the part is an error; other parts count if they lie between errors of a run.
+  void add(const Part& part, bool is_bad, const Moments& moments) {
+    const Moment& now = *moments.now;
+    const bool goes_on = !runs_.empty() && now.position - runs_.back().last <= kGap + 1;
+    if (!goes_on) between_.clear();
+    if (!is_bad) {
+      if (goes_on) between_.emplace_back(part, now);
+      return;
     }
-    if (!last || position - *last > kGap + 1) {
-      runs.emplace_back();
-    } else {
-      runs.back().merge(between);
+    if (!goes_on) {
+      Run& run = runs_.emplace_back();
+      run.first_frame = now.frame;
+      if (moments.before) {
+        if (const auto view = beside(*moments.before, part.box)) run.views.push_back(*view);
+      }
     }
-    between.clear();
-    runs.back().emplace(position, part);
-    last = position;
+    for (const auto& [other, moment] : between_) runs_.back().add(other, moment);
+    between_.clear();
+    runs_.back().add(part, now);
   }
-  return runs;
-}
 
-int corners_of(const Parts& parts) {
-  return std::accumulate(parts.begin(), parts.end(), 0, [](int sum, const auto& entry) {
-    return sum + static_cast<int>(entry.second.corners.size());
-  });
+  /// Takes the view after the last error. To be called once for each frame.
+  void look(const Moment& now) {
+    if (runs_.empty() || runs_.back().last + 1 != now.position) return;
+    runs_.back().view_after = beside(now, runs_.back().last_box);
+  }
+
+  const std::vector<Run>& runs() const { return runs_; }
+
+  Event event(EventKind kind, const Run& run, const RunInfo& of) const {
+    Event event;
+    event.kind = kind;
+    event.object = object_;
+    for (const sim::Object& named : of.objects) {
+      if (named.id == object_) event.object_name = named.name;
+    }
+    event.first_frame = run.first_frame;
+    event.last_frame = run.last_frame;
+    event.corners = run.sum.corners;
+    event.radial_corners = run.sum.radial_corners;
+    event.counted_corners = run.sum.counted_corners;
+    event.circles = run.sum.circles;
+    event.reasons = by_count(run.sum.reasons);
+    std::vector<EventView> views = run.views;
+    if (run.view_after) views.push_back(*run.view_after);
+    event.views = some_of(views);
+    return event;
+  }
+
+ private:
+  /// The view of a frame beside the run; absent if the object is not in it.
+  std::optional<EventView> beside(const Moment& moment, const Box& box) const {
+    if (object_ == 0) return moment.view(box);
+    const auto own = moment.boxes.find(object_);
+    return own == moment.boxes.end() ? std::nullopt : std::optional(moment.view(own->second));
+  }
+
+  int object_;
+  std::vector<Run> runs_;
+  std::vector<std::pair<Part, Moment>> between_;  // since the last error
+};
+
+using ErrorsByObject = std::map<int, Errors>;
+
+Errors& errors_of(ErrorsByObject& all, int object) {
+  return all.try_emplace(object, object).first->second;
 }
 
 // ---- Missed
 
-/// The rebel corners of an object that recall counts, by frame.
-Parts counted_corners(const Recording& recording, const Outcomes& outcomes, int object) {
-  Parts parts;
-  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
-    const FrameRecord& frame = recording.frames[k];
-    Part part;
-    for (std::size_t i = 0; i < outcomes[k].size(); ++i) {
-      if (frame.corner_truth[i].object != object) continue;
-      const bool missed = outcomes[k][i] == CornerOutcome::missed;
-      if (missed) part.corners.push_back(i);
-      part.counted_corners += missed || outcomes[k][i] == CornerOutcome::found;
-    }
-    if (part.counted_corners == 0) continue;
-    if (const auto box = box_in(frame, object)) {
-      part.box = *box;
-    } else if (!part.corners.empty()) {
-      part.box = box_round(frame, part.corners);
-    }
-    parts.emplace(k, std::move(part));
+/// The rebel corners of each object that recall counts.
+std::map<int, Part> missed_parts(const FrameRecord& frame,
+                                 const std::vector<CornerOutcome>& outcomes) {
+  std::map<int, Part> parts;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const bool missed = outcomes[i] == CornerOutcome::missed;
+    if (!missed && outcomes[i] != CornerOutcome::found) continue;
+    Part& part = parts[frame.corner_truth[i].object];
+    ++part.counted_corners;
+    if (!missed) continue;
+    add_corner(frame, i, part);
+    part.box.extend(frame.corners_px[i].cast<double>());
   }
+  for (auto& [object, part] : parts) part.box = box_in(frame, object).value_or(part.box);
   return parts;
-}
-
-void find_missed(const Recording& recording, const Outcomes& outcomes, std::vector<Event>& events) {
-  for (const ObjectDetection& object : detect_objects(recording)) {
-    const Parts counted = counted_corners(recording, outcomes, object.object);
-    const auto mostly_missed = [](const Part& part) {
-      return 2 * static_cast<int>(part.corners.size()) > part.counted_corners;
-    };
-    for (const Parts& run : runs_of(counted, mostly_missed)) {
-      if (corners_of(run) < kCornersToFind) continue;
-      const int first = recording.frames[run.begin()->first].index;
-      const EventKind kind = !object.found_at           ? EventKind::never_found
-                             : *object.found_at > first ? EventKind::found_late
-                                                        : EventKind::lost;
-      events.push_back(event_of(recording, kind, object.object, run));
-    }
-  }
 }
 
 // ---- False
@@ -262,18 +296,11 @@ int nearest_mover(const FrameRecord& frame, const Box& box) {
   return nearest;
 }
 
-/// A group of false rebels, tracked through the frames.
-struct Track {
-  Parts parts;
-  const Box& box() const { return parts.rbegin()->second.box; }
-};
-
+/// Groups of false rebels and false circles, tracked through the frames.
 class FalseGroups {
  public:
-  explicit FalseGroups(const Recording& recording) : recording_(recording) {}
-
-  void add_frame(std::size_t position, const std::vector<CornerOutcome>& outcomes) {
-    const FrameRecord& frame = recording_.frames[position];
+  void add_frame(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
+                 const Moments& moments) {
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (outcomes[i] == CornerOutcome::false_rebel) corners.push_back(i);
@@ -286,67 +313,85 @@ class FalseGroups {
       std::erase_if(corners, [&](std::size_t i) {
         const Vec2 x = frame.corners_px[i].cast<double>();
         if ((x - circle->location).norm() > circle->radius) return false;
-        part.corners.push_back(i);
+        add_corner(frame, i, part);
         return true;
       });
-      follow(position, std::move(part));
+      follow(moments.now->position, part);
     }
-    for (std::vector<std::size_t>& group : groups_of(frame, std::move(corners))) {
+    std::map<int, Part> halos;
+    for (const std::vector<std::size_t>& group : groups_of(frame, std::move(corners))) {
       if (group.size() < kCornersToFind) continue;
       Part part;
-      part.box = box_round(frame, group);
-      part.corners = std::move(group);
+      for (const std::size_t i : group) {
+        add_corner(frame, i, part);
+        part.box.extend(frame.corners_px[i].cast<double>());
+      }
       const Vec2 half = 0.5 * part.box.sizes();
       if (has_mover_under(frame, part.box.center(), half.norm())) {
-        Part& halo = halos_[nearest_mover(frame, part.box)][position];
-        halo.corners.insert(halo.corners.end(), part.corners.begin(), part.corners.end());
+        merge(part, halos[nearest_mover(frame, part.box)]);
       } else {
-        follow(position, std::move(part));
+        follow(moments.now->position, part);
       }
+    }
+    for (auto& [object, halo] : halos) {
+      if (const auto box = box_in(frame, object)) halo.box.extend(*box);
+      errors_of(halos_, object).add(halo, true, moments);
+    }
+    for (Track& track : tracks_) {
+      if (track.last == moments.now->position) track.errors.add(track.part, true, moments);
     }
   }
 
-  void finish(std::vector<Event>& events) {
+  void look(const Moment& now) {
+    for (Track& track : tracks_) track.errors.look(now);
+    for (auto& [object, errors] : halos_) errors.look(now);
+  }
+
+  void add_to(std::vector<Event>& events, const RunInfo& of) const {
     for (const Track& track : tracks_) {
-      Event event = event_of(recording_, EventKind::false_alarm, 0, track.parts);
+      Event event = track.errors.event(EventKind::false_alarm, track.errors.runs().front(), of);
       if (event.circles > 0) event.kind = EventKind::circle_false;
       events.push_back(std::move(event));
     }
-    for (auto& [object, parts] : halos_) {
-      for (auto& [position, part] : parts) {
-        const FrameRecord& frame = recording_.frames[position];
-        part.box = box_round(frame, part.corners);
-        if (const auto box = box_in(frame, object)) part.box.extend(*box);
-      }
-      for (const Parts& run : runs_of(parts, [](const Part&) { return true; })) {
-        events.push_back(event_of(recording_, EventKind::halo, object, run));
+    for (const auto& [object, errors] : halos_) {
+      for (const Run& run : errors.runs()) {
+        events.push_back(errors.event(EventKind::halo, run, of));
       }
     }
   }
 
  private:
-  /// Appends a part to the nearest recent track, or to a new one.
-  void follow(std::size_t position, Part part) {
-    Track* nearest = nullptr;
-    for (Track& track : tracks_) {
-      const std::size_t last = track.parts.rbegin()->first;
-      if (position - last > kGap + 1) continue;
-      const double d = track.box().exteriorDistance(part.box);
-      if (d > kTrackReach_px) continue;
-      if (!nearest || d < nearest->box().exteriorDistance(part.box)) nearest = &track;
-    }
-    if (!nearest) nearest = &tracks_.emplace_back();
-    const auto [entry, is_new] = nearest->parts.try_emplace(position, part);
-    if (is_new) return;
-    Part& before = entry->second;
-    before.corners.insert(before.corners.end(), part.corners.begin(), part.corners.end());
-    before.circles += part.circles;
-    before.box.extend(part.box);
+  struct Track {
+    std::size_t last = 0;  // position
+    Part part = {};        // in that frame
+    Errors errors{0};
+  };
+
+  static void merge(const Part& part, Part& sum) {
+    bench::add_to(sum, part);
+    sum.box.extend(part.box);
   }
 
-  const Recording& recording_;
+  /// Appends a part to the nearest recent track, or to a new one.
+  void follow(std::size_t position, const Part& part) {
+    Track* nearest = nullptr;
+    for (Track& track : tracks_) {
+      if (position - track.last > kGap + 1) continue;
+      const double d = track.part.box.exteriorDistance(part.box);
+      if (d > kTrackReach_px) continue;
+      if (!nearest || d < nearest->part.box.exteriorDistance(part.box)) nearest = &track;
+    }
+    if (!nearest) nearest = &tracks_.emplace_back();
+    if (nearest->last == position && nearest->part.is_error()) {
+      merge(part, nearest->part);
+    } else {
+      nearest->part = part;
+    }
+    nearest->last = position;
+  }
+
   std::vector<Track> tracks_;
-  std::map<int, Parts> halos_;  // by object
+  ErrorsByObject halos_;
 };
 
 // ---- Squares
@@ -401,12 +446,9 @@ std::map<SquareStep, int> steps_of(const FrameRecord& frame, int object) {
 
 class SquareEvents {
  public:
-  explicit SquareEvents(const Recording& recording) : recording_(recording) {}
-
-  void add_frame(std::size_t position) {
-    const FrameRecord& frame = recording_.frames[position];
+  void add_frame(const FrameRecord& frame, bool is_layered, const Moments& moments) {
     const SquareOutcomes outcomes = square_outcomes(frame);
-    std::set<Id> wrong(outcomes.wrong.begin(), outcomes.wrong.end());
+    const std::set<Id> wrong(outcomes.wrong.begin(), outcomes.wrong.end());
     for (const sim::ObjectTruth& object : frame.object_truth) {
       if (!outcomes.eligible.contains(object.object)) continue;
       const bool found =
@@ -418,14 +460,13 @@ class SquareEvents {
                    common_px2(box_of(square), box_of(object)) > kMostOfIt * box_of(square).volume();
           });
       Part part;
-      part.counted_corners = 1;
-      part.box = *box_in(frame, object.object);
-      part.is_of_squares = !found || is_doubled;
-      if (part.is_of_squares) {
-        causes_[{object.object, position}] =
+      part.box = moments.now->boxes.at(object.object);
+      if (!found || is_doubled) {
+        part.cause =
             is_doubled ? EventKind::square_split : cause_of(frame, outcomes.eligible, object);
+        if (is_layered) part.steps = steps_of(frame, object.object);
       }
-      objects_[object.object].emplace(position, part);
+      errors_of(objects_, object.object).add(part, part.cause.has_value(), moments);
     }
     for (const Square& square : frame.layers.squares) {
       const bool touches = std::ranges::any_of(frame.object_truth, [&](const auto& object) {
@@ -435,63 +476,54 @@ class SquareEvents {
       if (touches || !wrong.contains(square.id)) continue;
       Part part;
       part.box = box_of(square);
-      part.is_of_squares = true;
+      part.cause = EventKind::square_false;
       for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-        if (part.box.contains(frame.corners_px[i].cast<double>())) part.corners.push_back(i);
+        if (part.box.contains(frame.corners_px[i].cast<double>())) add_corner(frame, i, part);
       }
-      false_[square.id].emplace(position, part);
+      false_.try_emplace(square.id, 0).first->second.add(part, true, moments);
     }
   }
 
-  std::vector<Event> events() const {
+  void look(const Moment& now) {
+    for (auto& [object, errors] : objects_) errors.look(now);
+    for (auto& [square, errors] : false_) errors.look(now);
+  }
+
+  /// Most frames first.
+  std::vector<Event> events(const RunInfo& of) const {
     std::vector<Event> all;
-    const auto is_wrong = [](const Part& part) { return part.is_of_squares; };
-    for (const auto& [object, parts] : objects_) {
-      for (const Parts& run : runs_of(parts, is_wrong)) add_missed(object, run, all);
+    for (const auto& [object, errors] : objects_) {
+      for (const Run& run : errors.runs()) add_missed(errors, run, of, all);
     }
-    for (const auto& [square, parts] : false_) {
-      for (const Parts& run : runs_of(parts, is_wrong)) {
-        if (std::ssize(run) < kLeastFrames) continue;
-        Event event = event_of(recording_, EventKind::square_false, 0, run);
-        event.frames = static_cast<int>(run.size());
-        all.push_back(std::move(event));
+    for (const auto& [square, errors] : false_) {
+      for (const Run& run : errors.runs()) {
+        if (run.frames < kLeastFrames) continue;
+        all.push_back(errors.event(EventKind::square_false, run, of));
+        all.back().frames = run.frames;
       }
     }
+    std::ranges::stable_sort(all, std::greater(), &Event::frames);
     return all;
   }
 
  private:
-  void add_missed(int object, const Parts& run, std::vector<Event>& all) const {
-    std::map<EventKind, int> kinds;
-    std::map<SquareStep, int> steps;
+  static void add_missed(const Errors& errors, const Run& run, const RunInfo& of,
+                         std::vector<Event>& all) {
     int frames = 0;
-    for (const auto& [position, part] : run) {
-      if (!part.is_of_squares) continue;
-      ++frames;
-      ++kinds[causes_.at({object, position})];
-      if (!recording_.detector.layered) continue;
-      for (const auto& [step, corners] : steps_of(recording_.frames[position], object)) {
-        steps[step] += corners;
-      }
-    }
+    for (const auto& [cause, count] : run.causes) frames += count;
     if (frames < kLeastFrames) return;
     const auto most =
-        std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.second; });
-    Event event = event_of(recording_, most->first, object, run);
-    event.counted_corners = 0;  // applies to rebel events only
+        std::ranges::max_element(run.causes, {}, [](const auto& cause) { return cause.second; });
+    Event event = errors.event(most->first, run, of);
     event.frames = frames;
-    event.of_frames = static_cast<int>(run.size());
-    event.reasons.clear();
-    event.steps.assign(steps.begin(), steps.end());
-    std::ranges::stable_sort(event.steps, std::greater(), &std::pair<SquareStep, int>::second);
+    event.of_frames = run.frames;
+    event.steps = by_count(run.sum.steps);
     for (const auto& [step, corners] : event.steps) event.corners += corners;
     all.push_back(std::move(event));
   }
 
-  const Recording& recording_;
-  std::map<int, Parts> objects_;  // frames in which a square should be there
-  std::map<std::pair<int, std::size_t>, EventKind> causes_;
-  std::map<Id, Parts> false_;
+  ErrorsByObject objects_;  // of frames in which a square should be there
+  std::map<Id, Errors> false_;
 };
 
 }  // namespace
@@ -527,33 +559,60 @@ void EventSums::add(const EventSums& other) {
   add(squares, other.squares);
 }
 
-std::vector<Event> find_square_events(const Recording& recording, std::size_t most) {
-  if (recording.truth != Truth::all) return {};  // the objects are unknown
-  SquareEvents squares(recording);
-  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
-    if (recording.frames[k].index >= kSightings) squares.add_frame(k);
+struct EventFinder::State {
+  RunInfo run;
+  std::size_t frames = 0;
+  Moments moments = {};
+  ErrorsByObject missed = {};
+  FalseGroups false_groups = {};
+  SquareEvents squares = {};
+
+  void add_missed_to(std::vector<Event>& events, const ObjectDetections& detections) const;
+};
+
+EventFinder::EventFinder(const RunInfo& run) : state_(new State{run}) {}
+EventFinder::~EventFinder() = default;
+EventFinder::EventFinder(EventFinder&&) noexcept = default;
+
+void EventFinder::add(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes) {
+  if (state_->run.truth == Truth::unknown) return;  // errors are undefined without truth
+  auto& [run, frames, moments, missed, false_groups, squares] = *state_;
+  moments.before = std::exchange(moments.now, Moment(frames++, frame));
+  for (auto& [object, errors] : missed) errors.look(*moments.now);
+  false_groups.look(*moments.now);
+  squares.look(*moments.now);
+  if (frame.index < kSightings) return;
+  for (const auto& [object, part] : missed_parts(frame, outcomes)) {
+    errors_of(missed, object).add(part, 2 * part.corners > part.counted_corners, moments);
   }
-  std::vector<Event> events = squares.events();
-  std::ranges::stable_sort(events, std::greater(), &Event::frames);
-  keep_worst(events, most);
-  return events;
+  false_groups.add_frame(frame, outcomes, moments);
+  if (run.truth != Truth::all) return;  // the objects are unknown
+  squares.add_frame(frame, run.detector.layered, moments);
 }
 
-std::vector<Event> find_events(const Recording& recording, std::size_t most) {
-  if (recording.truth == Truth::unknown) return {};  // errors are undefined without truth
-  const Outcomes outcomes = corner_outcomes(recording);
-  std::vector<Event> events;
-  find_missed(recording, outcomes, events);
-  FalseGroups groups(recording);
-  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
-    if (recording.frames[k].index >= kSightings) groups.add_frame(k, outcomes[k]);
+void EventFinder::State::add_missed_to(std::vector<Event>& events,
+                                       const ObjectDetections& detections) const {
+  for (const auto& [object, errors] : missed) {
+    const std::optional<int> found_at = detections.at(object).found_at;
+    for (const Run& part : errors.runs()) {
+      if (part.sum.corners < kCornersToFind) continue;
+      const EventKind kind = !found_at                      ? EventKind::never_found
+                             : *found_at > part.first_frame ? EventKind::found_late
+                                                            : EventKind::lost;
+      events.push_back(errors.event(kind, part, run));
+    }
   }
-  groups.finish(events);
+}
+
+std::vector<Event> EventFinder::events(const ObjectDetections& detections) const {
+  std::vector<Event> events;
+  state_->add_missed_to(events, detections);
+  state_->false_groups.add_to(events, state_->run);
   const auto rank = [](const Event& event) {  // rebel events have no circles
     return std::tuple(family_of(event.kind), -event.circles, -event.corners);
   };
   std::ranges::stable_sort(events, {}, rank);
-  keep_worst(events, most);
+  std::ranges::move(state_->squares.events(state_->run), std::back_inserter(events));
   return events;
 }
 

@@ -7,14 +7,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "tools/recording/recording.h"
+#include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
 
@@ -86,18 +87,32 @@ struct Event {
   ///@}
 };
 
-/// The default limit of events in a family, and the value for no limit.
-inline constexpr std::size_t kMostEvents = 5, kAllEvents = std::numeric_limits<std::size_t>::max();
+/// The events of a family that a run keeps.
+inline constexpr std::size_t kMostEvents = 5;
 
-/// The rebel events, most corners first, then the circle events, most circles first; at most `most`
-/// of each family. \throws std::invalid_argument as `score`.
-std::vector<Event> find_events(const Recording& recording, std::size_t most = kMostEvents);
+/// Finds the events of a run frame by frame, in order. It keeps some 100 bytes for each error, and
+/// nothing of a frame without errors.
+class EventFinder {
+ public:
+  /// Uses the run's detector, truth and names of objects.
+  explicit EventFinder(const RunInfo& run);
+  ~EventFinder();
+  EventFinder(EventFinder&&) noexcept;
 
-/// The square events, most frames first. They have no steps if the detector has no edges.
-/// \throws std::invalid_argument as `score`.
-std::vector<Event> find_square_events(const Recording& recording, std::size_t most = kMostEvents);
+  /// \param outcomes of the frame's corners.
+  void add(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
 
-/// Keeps the first `most` events of each family. \param events in the order of `find_events`.
+  /// The rebel events, most corners first, then the circle events, most circles first, then the
+  /// square events, most frames first. Square events have no steps if the detector has no edges.
+  /// \param detections of the whole run (`Scorer::detections`).
+  std::vector<Event> events(const std::map<int, ObjectDetection>& detections) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Keeps the first `most` events of each family. \param events in the order of `EventFinder`.
 void keep_worst(std::vector<Event>& events, std::size_t most);
 
 /// The total costs of all events of a run, by cause.

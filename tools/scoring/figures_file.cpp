@@ -93,16 +93,14 @@ Metrics read_metrics(const std::filesystem::path& path) {
   });
 }
 
-void write_frames(const std::filesystem::path& path, const Recording& recording) {
-  const std::vector<RebelCounts> rebels = score_frames(recording);
-  const bool layered = recording.detector.layered, is_known = recording.truth != Truth::unknown;
-  OutputFile file(path);
-  file.write(row_of(FrameRecord{}, RebelCounts{}, layered).header() + '\n');
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    const auto counts = is_known ? std::optional(rebels[i]) : std::nullopt;
-    file.write(row_of(recording.frames[i], counts, layered).values() + '\n');
-  }
-  file.close();
+FramesWriter::FramesWriter(const std::filesystem::path& path, const RunInfo& run)
+    : file_(path), is_layered_(run.detector.layered), is_truth_known_(run.truth != Truth::unknown) {
+  file_.write(row_of(FrameRecord{}, RebelCounts{}, is_layered_).header() + '\n');
+}
+
+void FramesWriter::write(const FrameRecord& frame, const RebelCounts& rebels) {
+  const auto counts = is_truth_known_ ? std::optional(rebels) : std::nullopt;
+  file_.write(row_of(frame, counts, is_layered_).values() + '\n');
 }
 
 }  // namespace lcs::bench

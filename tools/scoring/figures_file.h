@@ -3,8 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "tools/files/output_file.h"
+#include "tools/input/input_file.h"
 #include "tools/recording/recording.h"
 #include "tools/scoring/scoring.h"
 
@@ -21,12 +25,38 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics);
 Metrics read_metrics(const std::filesystem::path& path);
 
 /// Writes a header and a row per frame: sizes, counts of rebels, precision and recall (empty if
-/// undefined), times in ms (empty if the recording has none). Numbers have the shortest form that
-/// parses to the same bits. \throws OutputError; std::invalid_argument as `score`.
-void write_frames(const std::filesystem::path& path, const Recording& recording);
+/// undefined), times in ms (empty if the frame has none). Numbers have the shortest form that
+/// parses to the same bits.
+class FramesWriter {
+ public:
+  /// Uses the detector and the truth of the run. \throws OutputError
+  FramesWriter(const std::filesystem::path& path, const RunInfo& run);
+  /// \throws OutputError
+  void write(const FrameRecord& frame, const RebelCounts& rebels);
+  /// \throws OutputError
+  void close() { file_.close(); }
 
-/// Restores the times of a stored recording's frames from its `frames.csv`.
-/// \throws std::runtime_error that names the file, the line and the fault.
-void read_times(const std::filesystem::path& frames_csv, Recording& recording);
+ private:
+  OutputFile file_;
+  bool is_layered_, is_truth_known_;
+};
+
+/// Restores the times of a stored recording's frames from its `frames.csv`, in order.
+class TimesReader {
+ public:
+  /// \throws std::runtime_error that names the file, the line and the fault, as the others.
+  explicit TimesReader(const std::filesystem::path& frames_csv);
+  void read(FrameRecord& frame);
+  /// To be called after the last frame. \throws also for further rows.
+  void finish();
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  input::InputFile file_;
+  std::string header_line_;
+  std::vector<std::string_view> header_;  ///< in `header_line_`
+  int line_ = 1;
+};
 
 }  // namespace lcs::bench

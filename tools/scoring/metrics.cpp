@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "tools/scoring/scores.h"
@@ -43,10 +42,7 @@ Figure lost_f1(const Scores& s, Difficulty difficulty) {
 
 /// Undefined for a detector that never gives the reason `first_sighting`.
 Figure lost_f1_by_sighting(const Scores& s, Difficulty difficulty) {
-  const bool is_told = std::ranges::any_of(s.recording.frames, [](const FrameRecord& frame) {
-    return std::ranges::count(frame.reasons, Reason::first_sighting) > 0;
-  });
-  return is_told ? lost_f1(s, difficulty) : std::nullopt;
+  return s.tells_first_sightings ? lost_f1(s, difficulty) : std::nullopt;
 }
 
 int counted_rebels(const RebelCounts& counts) {
@@ -55,7 +51,7 @@ int counted_rebels(const RebelCounts& counts) {
 
 /// Undefined for a detector without circles.
 Figure ratio_of_circles(const Scores& s, double part, double whole) {
-  return s.recording.detector.circles ? ratio(part, whole) : std::nullopt;
+  return s.detector.circles ? ratio(part, whole) : std::nullopt;
 }
 
 std::vector<Metric> rebel_metrics() {
@@ -142,14 +138,6 @@ Figure mean_iou(const Ious& ious) {
   return mean(all);
 }
 
-double objects_seen(const Scores& s) {
-  std::set<int> seen;
-  for (const FrameRecord& frame : s.recording.frames) {
-    for (const sim::ObjectTruth& truth : frame.object_truth) seen.insert(truth.object);
-  }
-  return static_cast<double>(seen.size());
-}
-
 std::vector<Metric> square_metrics() {
   const std::string boxed = "right squares / eligible boxes, at the IoU in the key (%)";
   const std::string right = "right / (right + wrong) squares, at the IoU in the key (%)";
@@ -192,7 +180,8 @@ std::vector<Metric> square_metrics() {
        "", "square.mask_mean_iou over objects that never move"},
       {"truth.boxes", [](auto& s) { return s.squares.at_50.boxes; }, kCount, "",
        "eligible boxes, over all frames"},
-      {"truth.objects", objects_seen, kCount, "", "objects seen in at least one frame"},
+      {"truth.objects", [](auto& s) { return static_cast<double>(s.objects_seen.size()); }, kCount,
+       "", "objects seen in at least one frame"},
   };
 }
 
@@ -229,30 +218,17 @@ std::vector<Metric> label_metrics() {
 
 // ---- Findings, right or wrong
 
-/// Mean over the frames of a count in each.
-template <class Count>
-Figure mean_of(const Scores& s, const Count& count) {
-  std::vector<double> counts;
-  for (const FrameRecord& frame : s.recording.frames) {
-    counts.push_back(static_cast<double>(count(frame)));
-  }
-  return mean(counts);
+/// \param count over all frames.
+Figure per_frame(const Scores& s, std::int64_t count) {
+  return ratio(static_cast<double>(count), s.frames);
 }
 
 std::vector<Metric> found_metrics() {
   return {
-      {"found.rebels_per_frame",
-       [](auto& s) {
-         return mean_of(
-             s, [](auto& frame) { return std::ranges::count(frame.verdicts, Verdict::rebel); });
-       },
+      {"found.rebels_per_frame", [](auto& s) { return per_frame(s, s.rebels_found); },
        neutral("per frame", 1), "rebels",
        "corners that the detector calls rebels, right or wrong. Mean over frames"},
-      {"found.movers_per_frame",
-       [](auto& s) {
-         return mean_of(
-             s, [](auto& frame) { return std::ranges::count_if(frame.layers.squares, may_move); });
-       },
+      {"found.movers_per_frame", [](auto& s) { return per_frame(s, s.movers_found); },
        neutral("per frame", 2), "movers", "squares that move, right or wrong. Mean over frames"},
   };
 }
@@ -262,10 +238,10 @@ std::vector<Metric> found_metrics() {
 /// For each frame, the number of corners in the last `length` frames including itself.
 std::vector<double> store_sizes(const Scores& s, std::size_t length) {
   std::vector<double> sizes;
+  double size = 0;
   for (std::size_t k = 0; k < s.corner_counts.size(); ++k) {
-    const std::size_t first = k + 1 > length ? k + 1 - length : 0;
-    double size = 0;
-    for (std::size_t i = first; i <= k; ++i) size += s.corner_counts[i];
+    size += s.corner_counts[k];
+    if (k >= length) size -= s.corner_counts[k - length];
     sizes.push_back(size);
   }
   return sizes;
@@ -273,23 +249,6 @@ std::vector<double> store_sizes(const Scores& s, std::size_t length) {
 
 std::vector<double> all_corners(const Scores& s) {
   return store_sizes(s, s.corner_counts.size());
-}
-
-Figure rematched_edges(const Scores& s) {
-  double edges = 0, rematched = 0;
-  const std::vector<FrameRecord>& frames = s.recording.frames;
-  const std::size_t end = s.recording.detector.layered ? frames.size() : 0;
-  for (std::size_t k = 1; k < end; ++k) {
-    std::set<Id> supported;
-    for (const Edge& edge : frames[k].layers.normal_edges) {
-      if (edge.corner >= 0) supported.insert(edge.id);
-    }
-    for (const Edge& edge : frames[k - 1].layers.normal_edges) {
-      edges += 1;
-      rematched += static_cast<double>(supported.count(edge.id));
-    }
-  }
-  return ratio(rematched, edges);
 }
 
 std::vector<Metric> other_metrics() {
@@ -310,7 +269,11 @@ std::vector<Metric> other_metrics() {
        "corners of all frames so far. Mean over frames"},
       {"dimension.accumulative_final", [](auto& s) { return quantile(all_corners(s), 1); }, kCount,
        "full store", "corners of all frames"},
-      {"edges.rematched", rematched_edges, kShare, "",
+      {"edges.rematched",
+       [](auto& s) {
+         return ratio(static_cast<double>(s.rematched_edges), static_cast<double>(s.edges));
+       },
+       kShare, "",
        "share of the normal edges of a frame that have a corner in the next one. The others may "
        "lie inside psi then, or have left the image"},
       {"ego.rotation_error_mrad_median", [](auto& s) { return median(s.rotation_errors_mrad); },
@@ -325,19 +288,17 @@ std::vector<Metric> other_metrics() {
 // ---- Times
 
 /// The stage's times over the frames, in ms; empty if the stage took no time in any frame.
-std::vector<double> times_of(const Recording& recording, const Stage& stage) {
+std::vector<double> times_of(const Scores& s, const Stage& stage) {
   std::vector<double> times;
-  if (stage.is_layer && !recording.detector.layered) return times;
-  for (const FrameRecord& frame : recording.frames) {
-    if (frame.times) times.push_back((*frame.times).*stage.time_ms);
-  }
+  if (stage.is_layer && !s.detector.layered) return times;
+  for (const FrameTimes& frame : s.times) times.push_back(frame.*stage.time_ms);
   const bool was_done = std::ranges::any_of(times, [](double ms) { return ms > 0; });
   return was_done ? times : std::vector<double>{};
 }
 
-Figure over_fast(const Recording& recording, const Stage& stage) {
-  const std::vector<double> times = times_of(recording, stage);
-  const std::vector<double> fast = times_of(recording, kStages[0]);
+Figure over_fast(const Scores& s, const Stage& stage) {
+  const std::vector<double> times = times_of(s, stage);
+  const std::vector<double> fast = times_of(s, kStages[0]);
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(times.size(), fast.size()); ++i) {
     if (fast[i] > 0) ratios.push_back(times[i] / fast[i]);
@@ -347,15 +308,11 @@ Figure over_fast(const Recording& recording, const Stage& stage) {
 
 Figure frames_per_second(const Scores& s) {
   double seconds = 0;
-  int timed = 0;
-  for (const FrameRecord& frame : s.recording.frames) {
-    if (!frame.times) continue;
-    const FrameTimes& times = *frame.times;
+  for (const FrameTimes& times : s.times) {
     seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
                        times.process_ms + times.truth_ms);
-    ++timed;
   }
-  return ratio(timed, seconds);
+  return ratio(static_cast<double>(s.times.size()), seconds);
 }
 
 /// Metrics of times. They are neutral, because times differ between machines and runs.
@@ -363,15 +320,13 @@ std::vector<Metric> time_metrics() {
   std::vector<Metric> all;
   for (const Stage& stage : kStages) {
     const std::string key = std::string("time.") + stage.name, label = stage.label;
-    all.push_back({key + "_ms_median",
-                   [stage](auto& s) { return median(times_of(s.recording, stage)); },
+    all.push_back({key + "_ms_median", [stage](auto& s) { return median(times_of(s, stage)); },
                    neutral("ms", 1), label, "median over frames of the stage's time"});
-    all.push_back({key + "_ms_p99",
-                   [stage](auto& s) { return quantile(times_of(s.recording, stage), 0.99); },
+    all.push_back({key + "_ms_p99", [stage](auto& s) { return quantile(times_of(s, stage), 0.99); },
                    neutral("ms", 1), label.empty() ? "" : label + " p99",
                    "99th percentile over frames of the stage's time"});
     if (!stage.is_of_filter) continue;
-    all.push_back({key + "_over_fast", [stage](auto& s) { return over_fast(s.recording, stage); },
+    all.push_back({key + "_over_fast", [stage](auto& s) { return over_fast(s, stage); },
                    neutral("", 1), label == "filter" ? "time" : "",
                    "the stage's time over that of FAST in the same frame. Median over frames"});
   }
@@ -454,8 +409,8 @@ const std::vector<Metric>& metrics() {
         table.push_back(std::move(row));
       }
     };
-    add({{"frames", [](auto& s) { return static_cast<double>(s.recording.frames.size()); }, kCount,
-          "frames", "frames of the recording"}});
+    add({{"frames", [](auto& s) { return static_cast<double>(s.frames); }, kCount, "frames",
+          "frames of the recording"}});
     add(rebel_metrics(), Truth::nothing_moves);
     add(square_metrics(), Truth::all);
     add(label_metrics());

@@ -75,30 +75,25 @@ bool may_move(const Square& square) {
   return square.rebel_circles > 0 || square.circles == 0;
 }
 
-LabelScore score_labels(const Recording& recording) {
-  LabelScore score;
-  for (const FrameRecord& frame : recording.frames) {
-    if (!frame.labels || frame.index < kSightings) continue;
-    ++score.frames;
-    const std::vector<Labelled> labels = labelled(frame);
-    const std::vector<Vec2> rebels = rebel_corners(frame);
-    for (const Labelled& label : labels) {
-      if (label.ignored) continue;
-      ++score.boxes;
-      score.found += std::count_if(rebels.begin(), rebels.end(), [&](const Vec2& px) {
-                       return label.reach.contains(px);
-                     }) >= kCornersToFind;
-    }
-    score.boxed += count_boxed(frame, labels);
-    score.rebels_off += static_cast<int>(std::count_if(
-        rebels.begin(), rebels.end(), [&](const Vec2& px) { return !in_any(labels, px); }));
-    const auto& circles = frame.layers.rebel_circles;
-    score.circles_off +=
-        static_cast<int>(std::count_if(circles.begin(), circles.end(), [&](const Circle& circle) {
-          return is_off(circle, frame, labels);
-        }));
+void LabelScore::add(const FrameRecord& frame) {
+  if (!frame.labels || frame.index < kSightings) return;
+  ++frames;
+  const std::vector<Labelled> labels = labelled(frame);
+  const std::vector<Vec2> rebels = rebel_corners(frame);
+  for (const Labelled& label : labels) {
+    if (label.ignored) continue;
+    ++boxes;
+    found += std::ranges::count_if(rebels, [&](const Vec2& px) {
+               return label.reach.contains(px);
+             }) >= kCornersToFind;
   }
-  return score;
+  boxed += count_boxed(frame, labels);
+  rebels_off += static_cast<int>(
+      std::ranges::count_if(rebels, [&](const Vec2& px) { return !in_any(labels, px); }));
+  circles_off +=
+      static_cast<int>(std::ranges::count_if(frame.layers.rebel_circles, [&](const Circle& circle) {
+        return is_off(circle, frame, labels);
+      }));
 }
 
 }  // namespace lcs::bench

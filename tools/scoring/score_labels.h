@@ -14,9 +14,9 @@ struct LabelScore {
   int boxed = 0;        ///< boxes that a moving square matches with an IoU of at least 0.5
   int rebels_off = 0;   ///< rebel corners in no box
   int circles_off = 0;  ///< rebel circles on no box
-};
 
-LabelScore score_labels(const Recording& recording);
+  void add(const FrameRecord& frame);
+};
 
 /// Whether the square moves. A square without circles, of a user's detector, counts as moving.
 bool may_move(const Square& square);

@@ -9,27 +9,6 @@
 namespace lcs::bench {
 namespace {
 
-/// The frames in which an object is distinct: a corner of it is labelled rebel.
-struct Distinct {
-  int first = 0;  ///< k0
-  int frames = 0;
-};
-
-std::map<int, Distinct> distinct_objects(const Recording& recording) {
-  std::map<int, Distinct> found;
-  for (const FrameRecord& frame : recording.frames) {
-    std::set<int> objects;
-    for (const sim::CornerTruth& truth : frame.corner_truth) {
-      if (truth.label == sim::Label::rebel) objects.insert(truth.object);
-    }
-    for (const int object : objects) {
-      const auto [entry, is_new] = found.try_emplace(object, Distinct{frame.index, 0});
-      ++entry->second.frames;
-    }
-  }
-  return found;
-}
-
 CornerOutcome outcome(bool said_rebel, sim::Label label, bool counted_by_recall) {
   if (label == sim::Label::fixed) {
     return said_rebel ? CornerOutcome::false_rebel : CornerOutcome::fixed;
@@ -71,21 +50,13 @@ Difficulty difficulty(const FrameRecord& frame, std::size_t corner) {
   return first ? Difficulty::first_seen : Difficulty::tracked;
 }
 
-/// The number of corners on an object with the verdict rebel.
-int rebels_on(const FrameRecord& frame, int object) {
-  int rebels = 0;
+/// The number of corners with the verdict rebel, by object.
+std::map<int, int> rebels_by_object(const FrameRecord& frame) {
+  std::map<int, int> rebels;
   for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
-    rebels += frame.corner_truth[i].object == object && frame.verdicts[i] == Verdict::rebel;
+    if (frame.verdicts[i] == Verdict::rebel) ++rebels[frame.corner_truth[i].object];
   }
   return rebels;
-}
-
-/// The first frame from k0 on with `kCornersToFind` rebel corners on the object.
-std::optional<int> found_at(const Recording& recording, int object, int k0) {
-  for (const FrameRecord& frame : recording.frames) {
-    if (frame.index >= k0 && rebels_on(frame, object) >= kCornersToFind) return frame.index;
-  }
-  return std::nullopt;
 }
 
 std::set<int> moving_objects(const FrameRecord& frame) {
@@ -94,6 +65,25 @@ std::set<int> moving_objects(const FrameRecord& frame) {
     if (truth.moving) moving.insert(truth.object);
   }
   return moving;
+}
+
+RebelCornerScore score_of(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes) {
+  RebelCornerScore score;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const sim::CornerTruth& truth = frame.corner_truth[i];
+    const RebelCounts of_corner = counts(outcomes[i]);
+    score.overall += of_corner;
+    const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
+    (is_radial ? score.radial : score.distinct) += of_corner;
+    if (!truth.outline) score.clear += of_corner;
+    const auto hard = static_cast<std::size_t>(difficulty(frame, i));
+    for (std::size_t d = 0; d < score.without.size(); ++d) {
+      score.without[d] += d == hard ? counts(corrected(outcomes[i])) : of_corner;
+    }
+    score.fixed_corners +=
+        outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
+  }
+  return score;
 }
 
 }  // namespace
@@ -108,56 +98,65 @@ RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
   return *this;
 }
 
-std::vector<std::vector<CornerOutcome>> corner_outcomes(const Recording& recording) {
-  const std::map<int, Distinct> distinct = distinct_objects(recording);
-  std::vector<std::vector<CornerOutcome>> outcomes;
-  for (const FrameRecord& frame : recording.frames) {
-    auto& of_frame = outcomes.emplace_back(frame.corner_truth.size(), CornerOutcome::uncounted);
-    if (frame.index < kSightings) continue;
-    for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
-      const sim::CornerTruth& truth = frame.corner_truth[i];
-      const bool is_rebel = truth.label == sim::Label::rebel;
-      if (!is_rebel && truth.label != sim::Label::fixed) continue;
-      const bool by_recall =
-          is_rebel && frame.index >= distinct.at(truth.object).first + kSightings;
-      of_frame[i] = outcome(frame.verdicts[i] == Verdict::rebel, truth.label, by_recall);
-    }
+std::vector<CornerOutcome> corner_outcomes(const FrameRecord& frame,
+                                           const ObjectDetections& detections) {
+  std::vector<CornerOutcome> outcomes(frame.corner_truth.size(), CornerOutcome::uncounted);
+  if (frame.index < kSightings) return outcomes;
+  for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
+    const sim::CornerTruth& truth = frame.corner_truth[i];
+    const bool is_rebel = truth.label == sim::Label::rebel;
+    if (!is_rebel && truth.label != sim::Label::fixed) continue;
+    const bool by_recall =
+        is_rebel && frame.index >= detections.at(truth.object).first_distinct + kSightings;
+    outcomes[i] = outcome(frame.verdicts[i] == Verdict::rebel, truth.label, by_recall);
   }
   return outcomes;
 }
 
-std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
-  std::vector<RebelCornerScore> scores;
-  for (const std::vector<CornerOutcome>& outcomes : corner_outcomes(recording)) {
-    const FrameRecord& frame = recording.frames[scores.size()];
-    RebelCornerScore& score = scores.emplace_back();
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      const sim::CornerTruth& truth = frame.corner_truth[i];
-      const RebelCounts of_corner = counts(outcomes[i]);
-      score.overall += of_corner;
-      const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
-      (is_radial ? score.radial : score.distinct) += of_corner;
-      if (!truth.outline) score.clear += of_corner;
-      const auto hard = static_cast<std::size_t>(difficulty(frame, i));
-      for (std::size_t d = 0; d < score.without.size(); ++d) {
-        score.without[d] += d == hard ? counts(corrected(outcomes[i])) : of_corner;
-      }
-      score.fixed_corners +=
-          outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
-    }
+std::vector<CornerOutcome> RebelScorer::add(const FrameRecord& frame) {
+  std::set<int> distinct;
+  for (const sim::CornerTruth& truth : frame.corner_truth) {
+    if (truth.label == sim::Label::rebel) distinct.insert(truth.object);
   }
-  return scores;
+  for (const int object : distinct) {
+    const auto [entry, is_new] = detections_.try_emplace(object);
+    if (is_new) entry->second.first_distinct = frame.index;
+    ++entry->second.distinct_frames;
+  }
+  const std::map<int, int> rebels = rebels_by_object(frame);
+  for (const auto& [object, count] : rebels) {
+    const auto found = detections_.find(object);
+    if (found == detections_.end() || found->second.found_at || count < kCornersToFind) continue;
+    found->second.found_at = frame.index;
+  }
+  std::vector<CornerOutcome> outcomes = corner_outcomes(frame, detections_);
+  last_ = score_of(frame, outcomes);
+  corners_ += last_;
+  if (frame.index < kSightings) return outcomes;
+
+  ++circles_.frames;
+  circles_.false_circles += static_cast<int>(false_circles(frame).size());
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    const auto found = rebels.find(truth.object);
+    if (!truth.moving || found == rebels.end() || found->second < kCornersToFind) continue;
+    ++circles_.seen;
+    circles_.circled += std::ranges::any_of(frame.layers.rebel_circles, [&](const Circle& circle) {
+      return box_of(truth).contains(circle.location);
+    });
+  }
+  return outcomes;
 }
 
-std::vector<ObjectDetection> detect_objects(const Recording& recording) {
-  std::vector<ObjectDetection> detections;
-  for (const auto& [object, distinct] : distinct_objects(recording)) {
-    detections.push_back({.object = object,
-                          .first_distinct = distinct.first,
-                          .distinct_frames = distinct.frames,
-                          .found_at = found_at(recording, object, distinct.first)});
+RebelObjectScore RebelScorer::objects() const {
+  RebelObjectScore score = circles_;
+  for (const auto& [object, detection] : detections_) {
+    if (detection.distinct_frames < kSightings) continue;
+    ++score.objects;
+    if (!detection.found_at) continue;
+    ++score.found;
+    score.latencies.push_back(*detection.found_at - detection.first_distinct);
   }
-  return detections;
+  return score;
 }
 
 bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px) {
@@ -180,31 +179,6 @@ std::vector<const Circle*> false_circles(const FrameRecord& frame) {
     if (!has_mover_under(frame, circle.location, circle.radius)) alone.push_back(&circle);
   }
   return alone;
-}
-
-RebelObjectScore score_rebel_objects(const Recording& recording) {
-  RebelObjectScore score;
-  for (const ObjectDetection& object : detect_objects(recording)) {
-    if (object.distinct_frames < kSightings) continue;
-    ++score.objects;
-    if (!object.found_at) continue;
-    ++score.found;
-    score.latencies.push_back(*object.found_at - object.first_distinct);
-  }
-  for (const FrameRecord& frame : recording.frames) {
-    if (frame.index < kSightings) continue;
-    ++score.frames;
-    score.false_circles += static_cast<int>(false_circles(frame).size());
-    for (const sim::ObjectTruth& truth : frame.object_truth) {
-      if (!truth.moving || rebels_on(frame, truth.object) < kCornersToFind) continue;
-      const auto& circles = frame.layers.rebel_circles;
-      ++score.seen;
-      score.circled += std::any_of(circles.begin(), circles.end(), [&](const Circle& circle) {
-        return box_of(truth).contains(circle.location);
-      });
-    }
-  }
-  return score;
 }
 
 }  // namespace lcs::bench

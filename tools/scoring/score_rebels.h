@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,30 +16,15 @@ namespace lcs::bench {
 /// An object counts as found with at least this many rebel corners on it.
 inline constexpr int kCornersToFind = 3;
 
-/// The outcome of a corner, from its label and its verdict.
-enum class CornerOutcome : std::uint8_t {
-  uncounted,     ///< in the warm-up, or its label is neither fixed nor rebel
-  fixed,         ///< TN: label fixed, verdict other than rebel
-  false_rebel,   ///< FP: label fixed, verdict rebel
-  found,         ///< TP: label and verdict rebel
-  found_early,   ///< TP within `kSightings` frames of its object's first; recall ignores it
-  missed,        ///< FN: label rebel, verdict other than rebel
-  missed_early,  ///< missed within `kSightings` frames; recall ignores it
-};
-
-/// The outcome of each corner of each frame, in order.
-std::vector<std::vector<CornerOutcome>> corner_outcomes(const Recording& recording);
-
 /// When an object became distinct from the static world, and when it was found.
 struct ObjectDetection {
-  int object = 0;
   int first_distinct = 0;       ///< k0: first frame with a corner of it that is labelled rebel
   int distinct_frames = 0;      ///< number of such frames
   std::optional<int> found_at;  ///< first frame from k0 on with `kCornersToFind` rebel corners
 };
 
-/// The detection of each object that is distinct in any frame, by object number.
-std::vector<ObjectDetection> detect_objects(const Recording& recording);
+/// By object number; each object that is distinct in any frame so far.
+using ObjectDetections = std::map<int, ObjectDetection>;
 
 /// Whether a disc has a moving object under it: the disc's centre lies in the object's box, or a
 /// corner of the object lies in the disc.
@@ -67,9 +53,6 @@ struct RebelCornerScore {
   RebelCornerScore& operator+=(const RebelCornerScore& other);
 };
 
-/// The counts of each frame, in order; all 0 during the warm-up.
-std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording);
-
 struct RebelObjectScore {
   int objects = 0;  ///< objects distinct in at least N frames
   int found = 0;
@@ -80,6 +63,26 @@ struct RebelObjectScore {
   int circled = 0;  ///< `seen` ones with the centre of a rebel circle in their box
 };
 
-RebelObjectScore score_rebel_objects(const Recording& recording);
+/// The outcome of each corner of a frame. \param detections up to this frame, or later.
+std::vector<CornerOutcome> corner_outcomes(const FrameRecord& frame,
+                                           const ObjectDetections& detections);
+
+/// Scores a run frame by frame, in order.
+class RebelScorer {
+ public:
+  /// \return the outcome of each corner.
+  std::vector<CornerOutcome> add(const FrameRecord& frame);
+
+  /// The counts of the last frame; all 0 during the warm-up.
+  const RebelCornerScore& last() const { return last_; }
+  const RebelCornerScore& corners() const { return corners_; }
+  const ObjectDetections& detections() const { return detections_; }
+  RebelObjectScore objects() const;
+
+ private:
+  RebelCornerScore last_, corners_;  ///< of the last frame, of all
+  ObjectDetections detections_;
+  RebelObjectScore circles_;  ///< without the fields that `detections_` determine
+};
 
 }  // namespace lcs::bench

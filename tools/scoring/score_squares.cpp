@@ -101,44 +101,11 @@ SquareOutcomes outcomes_of(const FrameSquares& squares, double threshold) {
   return outcomes;
 }
 
-void add(SquareCounts& sum, const SquareOutcomes& outcomes) {
+void add_to(SquareCounts& sum, const SquareOutcomes& outcomes) {
   const auto right = static_cast<int>(outcomes.right.size());
   sum.boxes += static_cast<int>(outcomes.eligible.size());
   sum.matched += right;
   sum.squares += right + static_cast<int>(outcomes.wrong.size());
-}
-
-std::set<int> movers(const Recording& recording) {
-  std::set<int> result;
-  for (const FrameRecord& frame : recording.frames) {
-    for (const sim::ObjectTruth& truth : frame.object_truth) {
-      if (truth.moving) result.insert(truth.object);
-    }
-  }
-  return result;
-}
-
-bool are_masks_known(const Recording& recording) {
-  return std::ranges::all_of(recording.frames, [](const FrameRecord& frame) {
-    return std::ranges::none_of(frame.object_truth,
-                                [](const sim::ObjectTruth& truth) { return truth.mask.empty(); });
-  });
-}
-
-/// \param pairs matched by their boxes.
-void add_masks(const FrameRecord& frame, const std::vector<BoxPair>& pairs,
-               const std::set<int>& moving, SquareScore::Masks& masks) {
-  const FrameRegions regions(frame);
-  const FrameSquares squares =
-      compare(frame, [&](const sim::ObjectTruth& truth, const Square& square) {
-        return regions.iou(truth.object, square.id);
-      });
-  add(masks.at_50, outcomes_of(squares, kRightIou));
-  for (const BoxPair& pair : pairs) {
-    if (pair.iou < kRightIou) continue;
-    (moving.contains(pair.box) ? masks.movers_iou : masks.static_iou)
-        .push_back(regions.iou(pair.box, pair.square));
-  }
 }
 
 }  // namespace
@@ -178,30 +145,46 @@ std::optional<double> SquareCounts::precision() const {
   return ratio(matched, squares);
 }
 
-SquareScore score_squares(const Recording& recording) {
-  SquareScore score;
-  const std::set<int> moving = movers(recording);
-  std::map<int, Id> last_square;  // by object, its last matched square
-  if (are_masks_known(recording)) score.masks.emplace();
-  for (const FrameRecord& frame : recording.frames) {
-    if (frame.index < kSightings) continue;
-    const FrameSquares squares = compare_boxes(frame);
-    add(score.at_30, outcomes_of(squares, 0.3));
-    add(score.at_50, outcomes_of(squares, kRightIou));
-    add(score.at_70, outcomes_of(squares, 0.7));
-    for (const int object : squares.eligible) {
-      ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
-    }
-    for (const BoxPair& pair : squares.pairs) {
-      if (pair.iou < kRightIou) continue;
-      const bool mover = moving.contains(pair.box);
-      ++(mover ? score.movers_50 : score.static_50).matched;
-      (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
-      const auto [last, first_time] = last_square.try_emplace(pair.box, pair.square);
-      score.identity_switches += last->second != pair.square;
-      last->second = pair.square;
-    }
-    if (score.masks) add_masks(frame, squares.pairs, moving, *score.masks);
+void SquareScorer::add(const FrameRecord& frame) {
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (truth.moving) movers_.insert(truth.object);
+    if (truth.mask.empty()) are_masks_known_ = false;
+  }
+  if (frame.index < kSightings) return;
+  const FrameSquares squares = compare_boxes(frame);
+  add_to(sums_.at_30, outcomes_of(squares, 0.3));
+  add_to(sums_.at_50, outcomes_of(squares, kRightIou));
+  add_to(sums_.at_70, outcomes_of(squares, 0.7));
+  for (const int object : squares.eligible) ++boxes_[object];
+  std::optional<FrameRegions> regions;
+  if (are_masks_known_) {
+    regions.emplace(frame);
+    const auto by_mask = [&](const sim::ObjectTruth& truth, const Square& square) {
+      return regions->iou(truth.object, square.id);
+    };
+    add_to(masks_.at_50, outcomes_of(compare(frame, by_mask), kRightIou));
+  }
+  for (const BoxPair& pair : squares.pairs) {
+    if (pair.iou < kRightIou) continue;
+    pairs_.push_back({pair.box, pair.iou, regions ? regions->iou(pair.box, pair.square) : 0});
+    const auto [last, first_time] = last_square_.try_emplace(pair.box, pair.square);
+    sums_.identity_switches += last->second != pair.square;
+    last->second = pair.square;
+  }
+}
+
+SquareScore SquareScorer::score() const {
+  SquareScore score = sums_;
+  if (are_masks_known_) score.masks = masks_;
+  for (const auto& [object, boxes] : boxes_) {
+    (movers_.contains(object) ? score.movers_50 : score.static_50).boxes += boxes;
+  }
+  for (const Pair& pair : pairs_) {
+    const bool mover = movers_.contains(pair.object);
+    ++(mover ? score.movers_50 : score.static_50).matched;
+    (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
+    if (!score.masks) continue;
+    (mover ? score.masks->movers_iou : score.masks->static_iou).push_back(pair.mask_iou);
   }
   return score;
 }

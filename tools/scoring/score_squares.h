@@ -2,6 +2,7 @@
 /// Scores how well squares cover the visible objects.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -63,6 +64,26 @@ struct SquareScore {
   std::optional<Masks> masks;  ///< absent unless the masks of all objects are known
 };
 
-SquareScore score_squares(const Recording& recording);
+/// Scores a run frame by frame, in order. Keeps 24 bytes for each matched pair: the objects that
+/// move at any time in the run are known at its end only.
+class SquareScorer {
+ public:
+  void add(const FrameRecord& frame);
+  SquareScore score() const;
+
+ private:
+  struct Pair {
+    int object;
+    double iou, mask_iou;
+  };
+
+  SquareScore sums_;  ///< without the split by movers
+  std::set<int> movers_;
+  std::map<int, int> boxes_;       ///< eligible ones, by object
+  std::map<int, Id> last_square_;  ///< matched last, by object
+  std::vector<Pair> pairs_;        ///< at `kRightIou`
+  SquareScore::Masks masks_;
+  bool are_masks_known_ = true;
+};
 
 }  // namespace lcs::bench

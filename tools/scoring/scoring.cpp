@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 
 #include "tools/scoring/metrics.h"
@@ -11,15 +13,13 @@
 namespace lcs::bench {
 namespace {
 
-void require_pairs(const Recording& recording) {
-  for (const FrameRecord& frame : recording.frames) {
-    const std::size_t corners = frame.corners_px.size();
-    if (frame.verdicts.size() == corners && frame.corner_truth.size() == corners) continue;
-    throw std::invalid_argument("frame " + std::to_string(frame.index) + " has " +
-                                std::to_string(corners) + " corners, " +
-                                std::to_string(frame.verdicts.size()) + " verdicts and " +
-                                std::to_string(frame.corner_truth.size()) + " truths");
-  }
+void require_pairs(const FrameRecord& frame) {
+  const std::size_t corners = frame.corners_px.size();
+  if (frame.verdicts.size() == corners && frame.corner_truth.size() == corners) return;
+  throw std::invalid_argument("frame " + std::to_string(frame.index) + " has " +
+                              std::to_string(corners) + " corners, " +
+                              std::to_string(frame.verdicts.size()) + " verdicts and " +
+                              std::to_string(frame.corner_truth.size()) + " truths");
 }
 
 }  // namespace
@@ -47,43 +47,93 @@ RebelCounts& RebelCounts::operator+=(const RebelCounts& other) {
   return *this;
 }
 
-std::vector<RebelCounts> score_frames(const Recording& recording) {
-  require_pairs(recording);
-  std::vector<RebelCounts> counts;
-  for (const RebelCornerScore& frame : score_rebel_corners(recording)) {
-    counts.push_back(frame.overall);
+struct Scorer::State {
+  Truth truth;
+  WarningWatch warnings;
+  Scores scores = {};  ///< without the members that the others determine
+  RebelScorer rebels = {};
+  SquareScorer squares = {};
+  std::vector<Id> normal_edges = {};  ///< of the previous frame
+
+  void add_edges(const FrameRecord& frame);
+};
+
+Scorer::Scorer(const RunInfo& run)
+    : state_(new State{.truth = run.truth, .warnings = WarningWatch(run.truth)}) {
+  state_->scores.detector = run.detector;
+}
+Scorer::~Scorer() = default;
+Scorer::Scorer(Scorer&&) noexcept = default;
+
+/// Counts the normal edges of the previous frame, and those of them that have a corner in this one.
+void Scorer::State::add_edges(const FrameRecord& frame) {
+  std::set<Id> supported;
+  for (const Edge& edge : frame.layers.normal_edges) {
+    if (edge.corner >= 0) supported.insert(edge.id);
   }
-  return counts;
+  scores.edges += std::ssize(normal_edges);
+  scores.rematched_edges +=
+      std::ranges::count_if(normal_edges, [&](Id id) { return supported.contains(id); });
+  normal_edges.clear();
+  for (const Edge& edge : frame.layers.normal_edges) normal_edges.push_back(edge.id);
 }
 
-Scores::Scores(const Recording& of)
-    : recording(of),
-      objects(score_rebel_objects(of)),
-      squares(score_squares(of)),
-      labels(score_labels(of)),
-      warnings(warnings_of(of)) {
-  for (const RebelCornerScore& frame : score_rebel_corners(of)) corners += frame;
-  for (const FrameRecord& frame : of.frames) {
-    corner_counts.push_back(static_cast<double>(frame.corners_px.size()));
-    if (of.detector.layered) dimensions.push_back(static_cast<double>(frame.layers.dimension()));
-    if (frame.true_motion.dt_s <= 0) continue;
-    const Eigen::AngleAxisd error(frame.motion.R_cur_prev.transpose() *
-                                  frame.true_motion.R_cur_prev);
-    rotation_errors_mrad.push_back(1000 * error.angle());
-    velocity_errors_mps.push_back((frame.motion.v_C_mps - frame.true_motion.v_C_mps).norm());
+FrameScore Scorer::add(const FrameRecord& frame) {
+  require_pairs(frame);
+  FrameScore score{state_->rebels.add(frame), state_->rebels.last().overall};
+  state_->squares.add(frame);
+  state_->warnings.add(frame);
+  Scores& scores = state_->scores;
+  scores.labels.add(frame);
+  ++scores.frames;
+  scores.tells_first_sightings |= std::ranges::count(frame.reasons, Reason::first_sighting) > 0;
+  for (const sim::ObjectTruth& truth : frame.object_truth) scores.objects_seen.insert(truth.object);
+  scores.rebels_found += std::ranges::count(frame.verdicts, Verdict::rebel);
+  scores.movers_found += std::ranges::count_if(frame.layers.squares, may_move);
+  scores.corner_counts.push_back(static_cast<double>(frame.corners_px.size()));
+  if (scores.detector.layered) {
+    scores.dimensions.push_back(static_cast<double>(frame.layers.dimension()));
+    state_->add_edges(frame);
   }
+  if (frame.times) scores.times.push_back(*frame.times);
+  if (frame.true_motion.dt_s <= 0) return score;
+  const Eigen::AngleAxisd error(frame.motion.R_cur_prev.transpose() * frame.true_motion.R_cur_prev);
+  scores.rotation_errors_mrad.push_back(1000 * error.angle());
+  scores.velocity_errors_mps.push_back((frame.motion.v_C_mps - frame.true_motion.v_C_mps).norm());
+  return score;
 }
 
-Metrics score(const Recording& recording) {
-  require_pairs(recording);
-  const Scores scores(recording);
+Metrics Scorer::metrics(const std::optional<sim::Warnings>& world) const {
+  Scores scores = state_->scores;
+  scores.corners = state_->rebels.corners();
+  scores.objects = state_->rebels.objects();
+  scores.squares = state_->squares.score();
+  scores.warnings = warned(world);
   Metrics figures;
-  for (const Metric& metric : metrics()) {
+  for (const Metric& metric : bench::metrics()) {
     if (!metric.compute) continue;
-    const bool is_known = recording.truth <= metric.needs;
+    const bool is_known = state_->truth <= metric.needs;
     figures.emplace_back(metric.key, is_known ? metric.compute(scores) : std::nullopt);
   }
   return figures;
+}
+
+std::vector<Warned> Scorer::warned(const std::optional<sim::Warnings>& world) const {
+  return state_->warnings.warned(world);
+}
+
+int Scorer::frames() const {
+  return state_->scores.frames;
+}
+
+const ObjectDetections& Scorer::detections() const {
+  return state_->rebels.detections();
+}
+
+Metrics score(const Recording& recording) {
+  Scorer scorer(recording);
+  for (const FrameRecord& frame : recording.frames) scorer.add(frame);
+  return scorer.metrics(recording.warnings);
 }
 
 std::optional<double> value(const Metrics& metrics, const std::string& name) {

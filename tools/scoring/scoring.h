@@ -1,22 +1,25 @@
 /// \file
-/// Computes a run's figures from its recording. Definitions are in `tools/scoring/SCORING.md`.
+/// Computes a run's figures from its frames. Definitions are in `tools/scoring/SCORING.md`.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/recording/recording.h"
+#include "tools/recording/warnings.h"
 
 namespace lcs::bench {
+
+struct ObjectDetection;
 
 /// Names and values, such as ("rebel.f1", 0.87). An undefined figure (such as recall without a
 /// rebel in the truth) has no value. Every recording has every metric, in the same order.
 using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
-
-/// \throws std::invalid_argument if the counts of corners, verdicts and truth differ in a frame.
-Metrics score(const Recording& recording);
 
 /// The value of a metric by name. \throws std::out_of_range for an unknown name.
 std::optional<double> value(const Metrics& metrics, const std::string& name);
@@ -37,8 +40,50 @@ struct RebelCounts {
   RebelCounts& operator+=(const RebelCounts& other);
 };
 
-/// The counts of each frame, in order; all 0 during the warm-up.
-/// \throws std::invalid_argument as `score`.
-std::vector<RebelCounts> score_frames(const Recording& recording);
+/// The outcome of a corner, from its label and its verdict.
+enum class CornerOutcome : std::uint8_t {
+  uncounted,     ///< in the warm-up, or its label is neither fixed nor rebel
+  fixed,         ///< TN: label fixed, verdict other than rebel
+  false_rebel,   ///< FP: label fixed, verdict rebel
+  found,         ///< TP: label and verdict rebel
+  found_early,   ///< TP within `kSightings` frames of its object's first; recall ignores it
+  missed,        ///< FN: label rebel, verdict other than rebel
+  missed_early,  ///< missed within `kSightings` frames; recall ignores it
+};
+
+/// The rebels of a single frame.
+struct FrameScore {
+  std::vector<CornerOutcome> outcomes;  ///< of each corner
+  RebelCounts rebels;                   ///< all 0 during the warm-up
+};
+
+/// Scores a run frame by frame, in order. It keeps counts, and a few numbers of each frame: about
+/// 120 bytes, and 24 more for each square that is right.
+class Scorer {
+ public:
+  /// Uses the detector and the truth of the run.
+  explicit Scorer(const RunInfo& run);
+  ~Scorer();
+  Scorer(Scorer&&) noexcept;
+
+  /// \throws std::invalid_argument if the counts of corners, verdicts and truth differ; then the
+  ///   frame is not added.
+  FrameScore add(const FrameRecord& frame);
+
+  /// \name Of the frames so far. \param world the simulation's warnings; absent without one.
+  ///@{
+  Metrics metrics(const std::optional<sim::Warnings>& world) const;
+  std::vector<Warned> warned(const std::optional<sim::Warnings>& world) const;
+  int frames() const;
+  const std::map<int, ObjectDetection>& detections() const;
+  ///@}
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The figures of a whole recording. \throws as `Scorer::add`.
+Metrics score(const Recording& recording);
 
 }  // namespace lcs::bench

@@ -41,45 +41,52 @@ std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
   return any ? std::optional(times) : std::nullopt;
 }
 
+// A frame takes some 200 bytes.
+constexpr input::FileKind kFramesTable{
+    input::kGibibyte, "run the scenario again, or remove the file to have no times"};
+
 }  // namespace
 
-void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
-  // A frame takes some 200 bytes.
-  constexpr input::FileKind kFramesTable{
-      input::kGibibyte, "run the scenario again, or remove the file to have no times"};
-  input::InputFile file(frames_csv, kFramesTable);
-  std::string header_line, line;
-  file.next_line(header_line);
-  const std::vector<std::string_view> header = fields_of(header_line);
-  int number = 1;
+TimesReader::TimesReader(const std::filesystem::path& frames_csv)
+    : file_(frames_csv, kFramesTable) {
+  file_.next_line(header_line_);
+  header_ = fields_of(header_line_);
+  if (place_of(header_, "frame") == header_.size()) fail("has no column frame");
+}
+
+void TimesReader::fail(const std::string& what) const {
+  throw input::Error({file_.here().file, line_}, fmt::format("{}; {}", what, kFramesTable.remedy));
+}
+
+void TimesReader::read(FrameRecord& frame) {
+  std::string line;
+  ++line_;
   try {
-    const std::size_t frame_column = column_of(header, "frame");
-    for (FrameRecord& frame : recording.frames) {
-      ++number;
-      if (!file.next_line(line)) {
-        throw std::runtime_error(fmt::format("the row of frame {} is missing", frame.index));
-      }
-      const std::vector<std::string_view> row = fields_of(line);
-      if (row.size() != header.size()) {
-        throw std::runtime_error(
-            fmt::format("has {} fields, the header {}", row.size(), header.size()));
-      }
-      if (number_in<int>(row[frame_column]) != frame.index) {
-        throw std::runtime_error(
-            fmt::format("is of frame '{}', and should be of {}", row[frame_column], frame.index));
-      }
-      frame.times = times_in(header, row);
+    if (!file_.next_line(line)) {
+      throw std::runtime_error(fmt::format("the row of frame {} is missing", frame.index));
     }
-    ++number;
-    if (file.next_line(line)) {
-      throw std::runtime_error("there are more rows than the recording has frames");
+    const std::vector<std::string_view> row = fields_of(line);
+    if (row.size() != header_.size()) {
+      throw std::runtime_error(
+          fmt::format("has {} fields, the header {}", row.size(), header_.size()));
     }
+    const std::string_view number = row[column_of(header_, "frame")];
+    if (number_in<int>(number) != frame.index) {
+      throw std::runtime_error(
+          fmt::format("is of frame '{}', and should be of {}", number, frame.index));
+    }
+    frame.times = times_in(header_, row);
   } catch (const input::Error&) {
     throw;  // it already names the file
   } catch (const std::runtime_error& error) {
-    throw input::Error({frames_csv.string(), number},
-                       fmt::format("{}; {}", error.what(), kFramesTable.remedy));
+    fail(error.what());
   }
+}
+
+void TimesReader::finish() {
+  std::string line;
+  ++line_;
+  if (file_.next_line(line)) fail("there are more rows than the recording has frames");
 }
 
 }  // namespace lcs::bench

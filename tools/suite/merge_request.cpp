@@ -64,9 +64,8 @@ int cost_of(const bench::Event& event) {
 }
 
 std::vector<bench::Event> events_of(const SuiteInFolder& suite, const RunResult& run) {
-  const fs::path file = suite.folder / run.folder / bench::kEventsFile;
-  if (run.folder.empty() || !fs::exists(file)) return {};
-  return bench::read_events(file);
+  const fs::path file = suite.events_of(run);
+  return file.empty() ? std::vector<bench::Event>() : bench::read_events(file);
 }
 
 const bench::Event* former(const bench::Event& event, const std::vector<bench::Event>& before) {
@@ -189,8 +188,7 @@ std::string remarks_text(const Verdict& verdict) {
 
 void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
                          const SuiteInFolder& after, const Comparison& comparison,
-                         const std::string& pictures_at) {
-  const Verdict verdict = verdict_of(after, &before, &comparison);
+                         const Verdict& verdict, const std::string& pictures_at) {
   std::string text =
       fmt::format("### {} {}\n\n{}\n", comparison.has_regressed() ? "🔴" : "🟢",
                   comparison.has_regressed() ? "Regressed" : "Not regressed", cell(verdict.line));

@@ -32,8 +32,8 @@ constexpr std::array<const char*, 6> kStandings{"error",   "failed",   "regresse
 
 /// The sums of a run's events; absent if it has none or they are unreadable, as they only explain.
 std::optional<bench::EventSums> events_of(const SuiteInFolder& suite, const RunResult& run) {
-  const fs::path file = suite.folder / run.folder / bench::kEventsFile;
-  if (run.folder.empty() || !fs::exists(file)) return std::nullopt;
+  const fs::path file = suite.events_of(run);
+  if (file.empty()) return std::nullopt;
   try {
     return bench::read_event_sums(file);
   } catch (const std::exception&) {
@@ -205,6 +205,12 @@ std::optional<Weighed> weighed(const SuiteInFolder& after, const SuiteInFolder* 
 }
 
 }  // namespace
+
+fs::path SuiteInFolder::events_of(const RunResult& run) const {
+  if (folder.empty() || run.folder.empty()) return {};
+  fs::path file = folder / run.folder / bench::kEventsFile;
+  return fs::exists(file) ? file : fs::path();
+}
 
 std::vector<Standing> standings_of(const ScenarioResult& scenario, const Comparison* comparison) {
   std::vector<Standing> standings;

@@ -16,7 +16,10 @@ namespace lcs::suite {
 /// A suite and the folder that its runs' folders are relative to.
 struct SuiteInFolder {
   const SuiteResult& suite;
-  std::filesystem::path folder;
+  std::filesystem::path folder;  ///< "": not to be read
+
+  /// The run's file of events; "" if it has none.
+  std::filesystem::path events_of(const RunResult& run) const;
 };
 
 /// Worst first. changed: by more than matters, with one seed, so that the noise is unknown.

@@ -18,17 +18,18 @@
 namespace lcs::tune {
 namespace {
 
-/// The run with the verdicts and circles of a new filter with these parameters.
-bench::Recording asked(const bench::Recording& seen, const Parameters& parameters) {
+/// The figures of a new filter with these parameters on the frames of the run.
+bench::Metrics figures_of(const bench::Recording& seen, const Parameters& parameters) {
   Filter filter(seen.camera.value(), parameters);
-  bench::Recording said = seen;
-  for (bench::FrameRecord& frame : said.frames) {
+  bench::Scorer scorer(seen);
+  for (bench::FrameRecord frame : seen.frames) {
     const FrameResult& result = filter.step(frame.corners_px, frame.signatures, frame.motion);
     frame.verdicts = result.verdicts;
     // The figures of `Worth` do not depend on edges and squares.
     frame.layers.rebel_circles = result.layers.rebel_circles;
+    scorer.add(frame);
   }
-  return said;
+  return scorer.metrics(seen.warnings);
 }
 
 /// SHA-256 over all files that `bench::read_recording` reads.
@@ -45,7 +46,7 @@ std::string digest_of(const std::filesystem::path& run) {
 }
 
 /// The evidence that a run is of the split `test`; "" if there is none.
-std::string why_of_test(const suite::ScenarioResult& scenario, const bench::Recording& run) {
+std::string why_of_test(const suite::ScenarioResult& scenario, const bench::RunInfo& run) {
   const worlds::Split& test = worlds::split("test");
   const auto is_of_test = [&](std::uint64_t seed) {
     return seed >= test.first_seed && seed <= test.last_seed;
@@ -109,8 +110,8 @@ void Trials::read(const std::filesystem::path& suite) {
 Worth Trials::worth(const Parameters& parameters, const std::function<void()>& tick) const {
   std::vector<bench::Metrics> figures(runs_.size());
   process::for_each_parallel(
-      static_cast<int>(runs_.size()),
-      [&](int i) { figures[i] = bench::score(asked(runs_[i], parameters)); }, [&](int) { tick(); });
+      static_cast<int>(runs_.size()), [&](int i) { figures[i] = figures_of(runs_[i], parameters); },
+      [&](int) { tick(); });
   Worth worth;
   double moving = 0, still = 0, recorded = 0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
