@@ -53,21 +53,21 @@ struct Frames {
   std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
 };
 
-Frames simulated(const scenario::Scenario& scenario) {
+Frames simulated(const scenario::Scenario& scenario, int threads) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
   return {.camera = bench::intrinsics(simulation->calibration().camera),
           .recording = bench::begin_recording(scenario, *simulation),
           .versions = simulation->versions(),
-          .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
-            return bench::run(scenario, *simulation, watchers);
+          .run = [&scenario, simulation, threads](std::span<const bench::Watcher> watchers) {
+            return bench::run(scenario, *simulation, watchers, threads);
           }};
 }
 
-Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
+Frames played(const scenario::Scenario& scenario, replay::Playback& playback, int threads) {
   return {.camera = bench::intrinsics(playback.camera()),
           .recording = playback.begin(),
-          .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
-            return bench::run(playback, bench::CornerFinder(scenario), watchers);
+          .run = [&scenario, &playback, threads](std::span<const bench::Watcher> watchers) {
+            return bench::run(playback, bench::CornerFinder(scenario), watchers, threads);
           }};
 }
 
@@ -105,11 +105,12 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
           .earlier = &earlier->recording(),
           .pictures = earlier->pictures(),
           .missing = std::move(missing),
-          .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
+          .run = [earlier, with_images,
+                  threads = request.threads](std::span<const bench::Watcher> watchers) {
             std::vector<Diagnostics> all;
             for (const bench::Watcher& watcher : watchers) {
-              all.push_back(
-                  earlier->run(watcher.detector, watcher.recording, with_images, watcher.sink));
+              all.push_back(earlier->run(watcher.detector, watcher.recording, with_images, threads,
+                                         watcher.sink));
             }
             return all;
           }};
@@ -224,7 +225,8 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
       return recorded(request, scenario,
                       playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
     }
-    return playback ? played(scenario, *playback) : simulated(scenario);
+    return playback ? played(scenario, *playback, request.threads)
+                    : simulated(scenario, request.threads);
   }();
   for (Watching& one : all) {
     if (scenario.frames > 0) {

@@ -111,14 +111,20 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-Diagnostics EarlierRun::run(Detector& detector, Recording& recording, bool with_images,
+Diagnostics EarlierRun::run(Detector& detector, Recording& recording, bool with_images, int threads,
                             const FrameSink& sink) const {
-  for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
-    FrameRecord& frame = recording.frames.emplace_back(recorded_.frames[k]);
-    const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
-    ask(detector, picture, {}, frame);
-    sink(frame, picture);
-  }
+  std::size_t k = 0;
+  const auto make = [&]() -> std::optional<SeenFrame> {
+    if (k == recorded_.frames.size()) return std::nullopt;
+    const std::size_t own = k++;
+    return SeenFrame{recorded_.frames[own], with_images ? image(own) : cv::Mat3b{}, {}};
+  };
+  const auto work = [&](SeenFrame& seen) {
+    FrameRecord& frame = recording.frames.emplace_back(std::move(seen.record));
+    ask(detector, seen.image, {}, frame);
+    sink(frame, seen.image);
+  };
+  for_each_frame(make, work, threads);
   detector.finish();
   return detector.diagnostics();
 }

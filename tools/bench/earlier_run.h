@@ -40,9 +40,10 @@ class EarlierRun {
   /// Processes all frames, like `bench::run`.
   /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
   ///   with losses of compression. Else the pictures are empty.
+  /// \param threads as of `bench::run`
   /// \return counts of the faults in the detector's input.
   /// \throws the exceptions of the detector and the sink.
-  Diagnostics run(Detector& detector, Recording& recording, bool with_images,
+  Diagnostics run(Detector& detector, Recording& recording, bool with_images, int threads,
                   const FrameSink& sink) const;
 
  private:
