@@ -1,6 +1,7 @@
 #include "tools/output/event_pictures.h"
 
 #include <algorithm>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/pictures/picture_file.h"
@@ -125,14 +126,16 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
 void paint_events(const Recording& recording, const FramePictures& pictures,
                   std::vector<Event>& events) {
   const auto outcomes = corner_outcomes(recording);
+  std::map<std::size_t, cv::Mat3b> decoded;  // several views show one frame
+  double scale = 1;
   for (Event& event : events) {
     for (EventView& view : event.views) {
       const auto frame =
           std::find_if(recording.frames.begin(), recording.frames.end(),
                        [&](const FrameRecord& record) { return record.index == view.frame; });
       const auto position = static_cast<std::size_t>(frame - recording.frames.begin());
-      double scale = 1;
-      const cv::Mat3b kept = pictures.at(position, scale);
+      cv::Mat3b& kept = decoded[position];
+      if (kept.empty()) kept = pictures.at(position, scale);
       const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
       const auto bytes =
           sim::encode_jpeg(paint(*frame, outcomes[position], kept, cut, event), kShownQuality);
