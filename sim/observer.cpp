@@ -318,17 +318,19 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
 
 void Observer::develop(Observation& o) {
   o.exposure = photographer_.develop(o.image, o.truth.depth_m, o.index);
-  o.truth.object.create(o.geom.size());
-  std::transform(o.geom.begin(), o.geom.end(), o.truth.object.begin(),
-                 [&](int geom) { return geom < 0 ? -1 : world_.object_of_geom(geom); });
+  const auto label = [&](cv::Mat1i& pixels, auto&& of_geom) {
+    pixels.create(o.geom.size());
+    const int* const geoms = o.geom.ptr<int>();
+    std::transform(geoms, geoms + o.geom.total(), pixels.ptr<int>(),
+                   [&](int geom) { return geom < 0 ? -1 : of_geom(geom); });
+  };
+  label(o.truth.object, [&](int geom) { return world_.object_of_geom(geom); });
   o.truth.limb_objects = world_.limb_objects();
   if (o.truth.limb_objects.empty()) return;
-  o.truth.part.create(o.geom.size());
-  std::transform(o.geom.begin(), o.geom.end(), o.truth.part.begin(),
-                 [&](int geom) { return geom < 0 ? -1 : world_.carrier_of_geom(geom); });
+  label(o.truth.part, [&](int geom) { return world_.carrier_of_geom(geom); });
 }
 
-/// Area of each object's pixels in the picture of the pinhole, by id.
+/// Area that each object's pixels of a lens have in the picture of the pinhole, by id.
 std::vector<double> Observer::areas_px(const cv::Mat1i& object) const {
   const Optics& optics = calibration_.optics;
   const double focal_px = calibration_.camera.focal_px;
@@ -337,9 +339,7 @@ std::vector<double> Observer::areas_px(const cv::Mat1i& object) const {
     for (int x = 0; x < object.cols; ++x) {
       if (object(y, x) <= 0) continue;
       areas_px[static_cast<std::size_t>(object(y, x))] +=
-          optics.is_pinhole()
-              ? 1
-              : focal_px * focal_px / optics.jacobian_px(optics.ray(x, y)).determinant();
+          focal_px * focal_px / optics.jacobian_px(optics.ray(x, y)).determinant();
     }
   }
   return areas_px;
@@ -350,7 +350,9 @@ std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) cons
       modal_boxes(truth.object, static_cast<int>(world_.objects().size()));
   std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
   const Way way(truth, truth.object.rows);
-  const std::vector<double> seen_px = areas_px(truth.object);
+  const bool is_pinhole = calibration_.optics.is_pinhole();
+  const std::vector<double> of_lens_px =
+      is_pinhole ? std::vector<double>() : areas_px(truth.object);
   for (ObjectTruth& o : all) {
     const auto id = static_cast<std::size_t>(o.object);
     const double row = (o.top + o.bottom) / 2.0;
@@ -366,7 +368,8 @@ std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) cons
     const double full =
         silhouette_px(calibration_.camera, way.T_WC(row).inverse() * way.T_WO(id, row), parts,
                       renderer_.near_m());
-    o.visible_fraction = full > 0 ? std::min(1.0, seen_px[id] / full) : 0;
+    const double seen_px = is_pinhole ? o.visible_px : of_lens_px[id];
+    o.visible_fraction = full > 0 ? std::min(1.0, seen_px / full) : 0;
     o.moving = way.any_moves(id);
   }
   return all;

@@ -80,6 +80,7 @@ cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
 
 void Illumination::light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const {
   if (!depends_on_depth()) {
+    if (ambient_ == 1) return;
     for (cv::Vec3f& pixel : picture) pixel *= ambient_;
     return;
   }

@@ -31,4 +31,10 @@ const Windows& windows() {
   return loaded;
 }
 
+const OpticalFlow& optical_flow() {
+  static const auto& loaded =
+      *static_cast<const OpticalFlow*>(variable("liblcs_flow.so", "lcs_flow_functions"));
+  return loaded;
+}
+
 }  // namespace lcs::sim

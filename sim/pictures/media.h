@@ -1,12 +1,14 @@
 /// \file
-/// OpenCV's codecs and windows, loaded when they are first used. With what they link themselves
-/// (GDAL, FFmpeg, GTK) they are most of the time in which a program starts.
+/// OpenCV's codecs, windows and optical flow, loaded when they are first used. With the libraries
+/// that they link themselves (GDAL, FFmpeg, GTK, Protobuf) they are most of the time in which a
+/// program starts.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/highgui.hpp>
+#include <opencv2/video/tracking.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
@@ -50,8 +52,16 @@ struct Windows {
   void (*show)(const cv::String& title, cv::InputArray picture);
 };
 
+/// Functions of OpenCV's video.
+struct OpticalFlow {
+  decltype(&cv::buildOpticalFlowPyramid) build_pyramid;
+  decltype(&cv::calcOpticalFlowPyrLK) lucas_kanade;
+  decltype(&cv::DISOpticalFlow::create) dis;
+};
+
 /// \throws std::runtime_error if the library that this program was installed with is not there.
 const Media& media();
 const Windows& windows();
+const OpticalFlow& optical_flow();
 
 }  // namespace lcs::sim

@@ -4,7 +4,10 @@
 
 #include <chrono>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "filter/detect/describe.h"
 #include "scenarios/load.h"
@@ -131,6 +134,106 @@ TEST_F(BenchTest, WhatTheSinkThrowsEndsTheRun) {
   EXPECT_THROW(run_into(recording_, scenario_, simulation_, detector_, stop_at_2),
                std::runtime_error);
   EXPECT_EQ(recording_.frames.size(), 3u);
+}
+
+/// Runs `for_each_frame` on five frames. \return the frames that were worked on, and its error.
+std::pair<std::vector<int>, std::string> worked_on(int threads, int unmade, int unworkable) {
+  std::vector<int> worked;
+  int k = 0;
+  const auto make = [&]() -> std::optional<SeenFrame> {
+    if (k == unmade) throw std::runtime_error("making " + std::to_string(k));
+    if (k == 5) return std::nullopt;
+    SeenFrame seen;
+    seen.record.index = k++;
+    return seen;
+  };
+  const auto work = [&](SeenFrame& seen) {
+    if (seen.record.index == unworkable) {
+      throw std::runtime_error("working on " + std::to_string(unworkable));
+    }
+    worked.push_back(seen.record.index);
+  };
+  try {
+    for_each_frame(make, work, threads);
+  } catch (const std::runtime_error& error) {
+    return {worked, error.what()};
+  }
+  return {worked, ""};
+}
+
+TEST(ForEachFrame, TwoThreadsEndWithTheErrorOfOneThread) {
+  constexpr int kNever = -1;
+  for (int unmade = kNever; unmade <= 5; ++unmade) {
+    for (int unworkable = kNever; unworkable < 5; ++unworkable) {
+      EXPECT_EQ(worked_on(2, unmade, unworkable), worked_on(1, unmade, unworkable))
+          << "frame " << unmade << " is not made, " << unworkable << " is not worked on";
+    }
+  }
+  EXPECT_EQ(worked_on(2, kNever, kNever), (std::pair{std::vector{0, 1, 2, 3, 4}, std::string()}));
+  EXPECT_EQ(worked_on(2, 3, 2).second, "working on 2") << "before frame 3 would be made";
+}
+
+/// A camera that drives past a wall of noise: no simulation, so that the thread sanitizer sees
+/// every thread.
+class Wall : public FrameSource {
+ public:
+  bool next(FrameRecord& frame, cv::Mat3b& image) override {
+    constexpr int kLength = 8, kStep_px = 4;
+    if (k_ == kLength) return false;
+    cv::cvtColor(noise_.colRange(kStep_px * k_, kStep_px * k_ + kCamera.width_px), image,
+                 cv::COLOR_GRAY2BGR);
+    frame.index = k_;
+    frame.motion.dt_s = k_ > 0 ? 0.1 : 0;
+    frame.motion.v_C_mps = {1, 0, 0};
+    ++k_;
+    return true;
+  }
+  void label(FrameRecord& frame) override { set_corner_truth(Truth::unknown, frame); }
+  Diagnostics diagnostics() const override { return {}; }
+
+  inline static const Intrinsics kCamera{
+      .focal_px = 300, .centre_px = {159.5, 119.5}, .width_px = 320, .height_px = 240};
+
+ private:
+  static cv::Mat1b made_noise() {
+    cv::Mat1b noise(kCamera.height_px, 2 * kCamera.width_px);
+    cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(noise, noise, {}, 2);
+    cv::normalize(noise, noise, 0, 255, cv::NORM_MINMAX);
+    return noise;
+  }
+
+  cv::Mat1b noise_ = made_noise();
+  int k_ = 0;
+};
+
+TEST(ForEachFrame, TheFilterSaysInASecondThreadAsInOne) {
+  const scenario::Scenario scenario = scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {});
+  const auto recorded = [&](int threads) {
+    Wall wall;
+    LcsDetector filter(Wall::kCamera, filter_parameters(scenario));
+    Recording recording;
+    std::set<std::thread::id> workers;
+    const Watcher watcher{filter, recording, [&](const FrameRecord&, const cv::Mat3b&) {
+                            workers.insert(std::this_thread::get_id());
+                          }};
+    run(wall, CornerFinder(scenario), {&watcher, 1}, threads);
+    EXPECT_EQ(workers.contains(std::this_thread::get_id()), threads == 1);
+    return recording;
+  };
+  const Recording one = recorded(1), two = recorded(2);
+  ASSERT_EQ(one.frames.size(), 8u);
+  ASSERT_EQ(two.frames.size(), 8u);
+  EXPECT_GT(one.frames[7].layers.normal_edges.size(), 50u);
+  for (std::size_t k = 0; k < one.frames.size(); ++k) {
+    EXPECT_EQ(one.frames[k].corners_px, two.frames[k].corners_px);
+    EXPECT_EQ(one.frames[k].verdicts, two.frames[k].verdicts);
+    EXPECT_EQ(one.frames[k].layers.normal_edges.size(), two.frames[k].layers.normal_edges.size());
+    for (std::size_t i = 0; i < one.frames[k].layers.normal_edges.size(); ++i) {
+      EXPECT_EQ(one.frames[k].layers.normal_edges[i].location,
+                two.frames[k].layers.normal_edges[i].location);
+    }
+  }
 }
 
 TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {

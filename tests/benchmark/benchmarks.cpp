@@ -79,10 +79,10 @@ double cpu_seconds(Work&& work) {
   return seconds_by(CLOCK_THREAD_CPUTIME_ID, std::forward<Work>(work));
 }
 
-/// Wall time, s, for rendering, which the driver does in its own threads.
+/// CPU time of all threads, s, for rendering, which the driver does in its own threads.
 template <typename Work>
-double wall_seconds(Work&& work) {
-  return seconds_by(CLOCK_MONOTONIC, std::forward<Work>(work));
+double cores_seconds(Work&& work) {
+  return seconds_by(CLOCK_PROCESS_CPUTIME_ID, std::forward<Work>(work));
 }
 
 void fast(benchmark::State& state, const std::string& scene, int corners) {
@@ -185,7 +185,7 @@ void generate(benchmark::State& state, const std::string& scene) {
   const scenario::Scenario scenario = scenario::load(scenario_file(scene));
   for (auto _ : state) {
     std::optional<sim::Simulation> simulation;
-    state.SetIterationTime(wall_seconds([&] { simulation.emplace(scenario); }));
+    state.SetIterationTime(cores_seconds([&] { simulation.emplace(scenario); }));
   }
 }
 
@@ -194,10 +194,10 @@ void simulate(benchmark::State& state, const std::string& scene) {
   auto simulation = std::make_unique<sim::Simulation>(scenario);
   for (auto _ : state) {
     std::optional<sim::Observation> observation;
-    double s = wall_seconds([&] { observation = simulation->next(); });
+    double s = cores_seconds([&] { observation = simulation->next(); });
     if (!observation) {
       simulation = std::make_unique<sim::Simulation>(scenario);
-      s = wall_seconds([&] { observation = simulation->next(); });
+      s = cores_seconds([&] { observation = simulation->next(); });
     }
     state.SetIterationTime(s);
   }
@@ -211,7 +211,7 @@ void render(benchmark::State& state, const std::string& scene) {
                                scenario.camera.height_px);
   cv::Mat3b image;
   for (auto _ : state) {
-    state.SetIterationTime(wall_seconds([&] {
+    state.SetIterationTime(cores_seconds([&] {
       renderer.update();
       renderer.render_colour(image);
     }));
@@ -237,9 +237,8 @@ void settings(benchmark::State& state, const std::string& scene, const RenderSet
   RawRenderer renderer(world, size_px, chosen);
   double cores_s = 0;
   for (auto _ : state) {
-    cores_s += seconds_by(CLOCK_PROCESS_CPUTIME_ID, [&] {
-      state.SetIterationTime(wall_seconds([&] { renderer.render(); }));
-    });
+    cores_s += cores_seconds(
+        [&] { state.SetIterationTime(seconds_by(CLOCK_MONOTONIC, [&] { renderer.render(); })); });
   }
   state.counters["cores_ms"] = 1000 * cores_s / static_cast<double>(state.iterations());
   if (chosen == RenderSettings{} && !is_of_the_project(renderer, world, size_px)) {

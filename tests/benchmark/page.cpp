@@ -218,7 +218,8 @@ void PageReporter::write(const std::filesystem::path& page) const {
                          kStyle, fmt::gmtime(std::time(nullptr))) +
                  machine() +
                  "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for "
-                 "what computes, of the wall clock for what renders, with all cores. The streams "
+                 "what computes, of all threads for what renders, of the wall clock for the "
+                 "settings. The streams "
                  "have the density of corners of the recorded pictures; with their number grows "
                  "the picture.</p>\n<ul>\n" +
                  targets + "</ul>\n" + tables);

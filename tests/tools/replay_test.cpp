@@ -87,16 +87,17 @@ TEST_F(Replay, TracksAWallThatComesNearerAndLearnsItsDepth) {
   EXPECT_TRUE(fs::exists(out() / "video.mp4"));
 }
 
-TEST_F(Replay, TheSamePicturesGiveTheSameBytes) {
+TEST_F(Replay, TheSamePicturesGiveTheSameBytesWithOneThreadAndTwo) {
   draw(6);
-  std::string bytes[2];
-  for (std::string& text : bytes) {
-    ASSERT_EQ(replay({"--no-video", "--quiet"}).exit_code, 0);
+  std::vector<std::string> bytes;
+  for (const char* threads : {"1", "1", "2"}) {
+    ASSERT_EQ(replay({"--no-video", "--quiet", "--threads", threads}).exit_code, 0);
     std::ifstream file(out() / kLayersFile, std::ios::binary);
-    text = {std::istreambuf_iterator<char>(file), {}};
+    bytes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
   EXPECT_FALSE(bytes[0].empty());
   EXPECT_EQ(bytes[0], bytes[1]);
+  EXPECT_EQ(bytes[0], bytes[2]);
 }
 
 TEST_F(Replay, SkipsAndNamesWhatItCannotUseAndLetsItsTimePass) {

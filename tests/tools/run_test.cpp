@@ -579,6 +579,27 @@ TEST_F(Run, WhoWatchesBesideOthersSaysWhatItSaysAlone) {
   }
 }
 
+TEST_F(Run, TwoThreadsWriteTheFilesOfOne) {
+  const auto compare = [&](std::vector<std::string> options) {
+    for (const char* threads : {"1", "2"}) {
+      std::vector<std::string> words{kCrossing, "--set", "frames=8", "--quiet", "--events"};
+      words.insert(words.end(), options.begin(), options.end());
+      words.insert(words.end(), {"--threads", threads, "--out", std::string("by") + threads});
+      const CommandResult result = run(words);
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+    }
+    for (const char* file :
+         {kLayersFile, kTruthFile, kWarningsFile, kEventsFile, kPicturesFile, kVideoFile}) {
+      const std::string one = read(folder_.path() / "by1" / file);
+      EXPECT_FALSE(one.empty()) << file;
+      EXPECT_TRUE(one == read(folder_.path() / "by2" / file)) << file;
+    }
+  };
+  compare({"--beside", "klt=klt"});
+  fs::rename(folder_.path() / "by1", folder_.path() / "earlier");
+  compare({"--recorded", "earlier"});
+}
+
 TEST_F(Run, AFolderThatHoldsSomethingElseIsRefusedAndUntouched) {
   fs::create_directory(folder_.path() / "papers");
   std::ofstream(folder_.path() / "papers" / "thesis.tex") << "precious";
@@ -621,21 +642,24 @@ TEST_P(RunInterrupted, LeavesTheEarlierResultAsItWasAndExitsWith130) {
   ASSERT_EQ(run(brief()).exit_code, 0);
   const std::string before = read(folder_.path() / "out" / "crossing" / kLayersFile);
 
-  Command command({"run", kCrossing, "--set", "frames=1000"}, {.folder = folder_.path()});
-  // The run is under way once a staging folder exists beside the result.
-  while (command.is_running() && entries(folder_.path() / "out").size() < 2) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  ASSERT_TRUE(command.is_running());
-  command.send(GetParam());
-  const CommandResult result = command.wait();
+  for (const char* threads : {"1", "2"}) {
+    Command command({"run", kCrossing, "--set", "frames=1000", "--threads", threads},
+                    {.folder = folder_.path()});
+    // The run is under way once a staging folder exists beside the result.
+    while (command.is_running() && entries(folder_.path() / "out").size() < 2) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ASSERT_TRUE(command.is_running());
+    command.send(GetParam());
+    const CommandResult result = command.wait();
 
-  const bool is_about_a_write = GetParam() == SIGXFSZ || GetParam() == SIGPIPE;
-  EXPECT_EQ(result.exit_code, is_about_a_write ? 2 : 130);
-  EXPECT_NE(result.err.find(is_about_a_write ? "cannot write" : "interrupted"), std::string::npos)
-      << result.err;
-  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
-  EXPECT_EQ(read(folder_.path() / "out" / "crossing" / kLayersFile), before);
+    const bool is_about_a_write = GetParam() == SIGXFSZ || GetParam() == SIGPIPE;
+    EXPECT_EQ(result.exit_code, is_about_a_write ? 2 : 130);
+    EXPECT_NE(result.err.find(is_about_a_write ? "cannot write" : "interrupted"), std::string::npos)
+        << result.err;
+    EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
+    EXPECT_EQ(read(folder_.path() / "out" / "crossing" / kLayersFile), before);
+  }
 }
 
 // ---- The program itself

@@ -164,6 +164,7 @@ RunMade replay(const ReplayRequest& request, Caller& caller) {
   run.beside = request.beside;
   run.no_video = request.no_video;
   run.events = request.events;
+  run.threads = request.threads;
   run.command = arguments_of(request);
   return run_scenario(run, std::move(scenario), caller);
 }

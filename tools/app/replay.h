@@ -28,6 +28,7 @@ struct ReplayRequest {
   std::string out;                  ///< folder; "" is `out/<name of the recording>`
   bool no_video = false;
   bool events = false;
+  int threads = 1;  ///< as in `RunRequest`
 };
 
 /// The option of a key of `recording`: --fps for fps, --image-topic for topics.image, --world-frame

@@ -53,23 +53,23 @@ struct Frames {
   std::function<bench::RunEnd(std::span<const bench::Watcher>)> run;
 };
 
-Frames simulated(const scenario::Scenario& scenario) {
+Frames simulated(const scenario::Scenario& scenario, int threads) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
   return {.camera = bench::intrinsics(simulation->calibration().camera),
           .info = bench::run_info(scenario, *simulation),
           .count = scenario.frames,
           .versions = simulation->versions(),
-          .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
-            return bench::run(scenario, *simulation, watchers);
+          .run = [&scenario, simulation, threads](std::span<const bench::Watcher> watchers) {
+            return bench::run(scenario, *simulation, watchers, threads);
           }};
 }
 
-Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
+Frames played(const scenario::Scenario& scenario, replay::Playback& playback, int threads) {
   return {.camera = bench::intrinsics(playback.camera()),
           .info = playback.info(),
           .count = scenario.frames,
-          .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
-            return bench::run(playback, bench::CornerFinder(scenario), watchers);
+          .run = [&scenario, &playback, threads](std::span<const bench::Watcher> watchers) {
+            return bench::run(playback, bench::CornerFinder(scenario), watchers, threads);
           }};
 }
 
@@ -107,8 +107,9 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
           .count = earlier->frames(),
           .pictures = earlier->pictures(),
           .missing = std::move(missing),
-          .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
-            return earlier->run(watchers, with_images);
+          .run = [earlier, with_images,
+                  threads = request.threads](std::span<const bench::Watcher> watchers) {
+            return earlier->run(watchers, with_images, threads);
           }};
 }
 
@@ -221,7 +222,8 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
       return recorded(request, scenario,
                       playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
     }
-    return playback ? played(scenario, *playback) : simulated(scenario);
+    return playback ? played(scenario, *playback, request.threads)
+                    : simulated(scenario, request.threads);
   }();
   for (Watching& one : all) {
     if (scenario.frames > 0) {

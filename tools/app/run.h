@@ -35,6 +35,7 @@ struct RunRequest {
   bool no_video = false;
   bool events = false;
   bool report = false;  ///< write report.html, and with it events.json
+  int threads = 1;      ///< 1 or 2, as of `bench::run`; 2 not with `view`
   /// Makes the receiver of the video's frames; null: none.
   std::function<ShowFrame(const scenario::Scenario&)> view = {};
   std::vector<std::string> command = {};  ///< of a request that is carried out as this one

@@ -1,6 +1,7 @@
 #include "tools/bench/bench.h"
 
 #include <algorithm>
+#include <future>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -109,22 +110,43 @@ void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, Fram
   frame.masks = detector.masks();
 }
 
-RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers) {
+void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
+                    const std::function<void(SeenFrame&)>& work, int threads) {
+  if (threads == 1) {
+    while (std::optional<SeenFrame> seen = make()) work(*seen);
+    return;
+  }
+  for (std::optional<SeenFrame> seen = make(), next; seen; seen = std::move(next)) {
+    std::future<void> worked = std::async(std::launch::async, work, std::ref(*seen));
+    try {
+      next = make();
+    } catch (...) {
+      worked.get();  // an error of the frame before comes first
+      throw;
+    }
+    worked.get();
+  }
+}
+
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers,
+           int threads) {
   const bool are_signatures_wanted =
       std::any_of(watchers.begin(), watchers.end(),
                   [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
 
-  while (const std::optional<SeenFrame> seen = see(source, corners, are_signatures_wanted)) {
+  const auto make = [&] { return see(source, corners, are_signatures_wanted); };
+  const auto work = [&](const SeenFrame& seen) {
     for (const Watcher& watcher : watchers) {
-      FrameRecord frame = seen->record;
+      FrameRecord frame = seen.record;
       if (!watcher.detector.wants_signatures()) {  // as in a run of its own
         frame.signatures = {};
         frame.times->describe_ms = 0;
       }
-      ask(watcher.detector, seen->image, seen->grey, frame);
-      watcher.sink(frame, seen->image);
+      ask(watcher.detector, seen.image, seen.grey, frame);
+      watcher.sink(frame, seen.image);
     }
-  }
+  };
+  for_each_frame(make, work, threads);
   RunEnd end{.diagnostics = {}, .warnings = source.warnings()};
   for (const Watcher& watcher : watchers) {
     end.diagnostics.push_back(source.diagnostics());
@@ -135,9 +157,9 @@ RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> w
 }
 
 RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-           std::span<const Watcher> watchers) {
+           std::span<const Watcher> watchers, int threads) {
   SimulatedFrames frames(scenario, simulation);
-  return run(frames, CornerFinder(scenario), watchers);
+  return run(frames, CornerFinder(scenario), watchers, threads);
 }
 
 }  // namespace lcs::bench

@@ -88,6 +88,12 @@ std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
 
+/// Makes frames, and works on each of them, in their order.
+/// \param threads 1 or 2: two make a frame while `work` is on the frame before, in another thread.
+/// \throws the first exception of the two in the order of a single thread.
+void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
+                    const std::function<void(SeenFrame&)>& work, int threads);
+
 /// The facts of a run of the scenario.
 RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
@@ -110,12 +116,14 @@ struct RunEnd {
 };
 
 /// Processes all frames, and keeps none. Each watcher gets the same frames as it would alone.
+/// \param threads as of `for_each_frame`; with 2, detectors and sinks work in the second one.
 /// \throws the exceptions of source, detectors and sinks.
-RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers);
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers,
+           int threads = 1);
 
 /// Runs the simulation to its end. \param scenario of the simulation.
 /// \return,\throws like the function above, and sim::PhysicsError.
 RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-           std::span<const Watcher> watchers);
+           std::span<const Watcher> watchers, int threads = 1);
 
 }  // namespace lcs::bench

@@ -94,17 +94,22 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images) const {
+RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int threads) const {
   RunEnd end{.diagnostics = {}, .warnings = info_.warnings};
   for (const Watcher& watcher : watchers) {
     RecordingReader reader(folder_);
-    FrameRecord recorded;
-    for (std::size_t k = 0; reader.next(recorded); ++k) {
-      FrameRecord frame = without_detections(std::move(recorded));
-      const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
-      ask(watcher.detector, picture, {}, frame);
-      watcher.sink(frame, picture);
-    }
+    std::size_t k = 0;
+    const auto make = [&]() -> std::optional<SeenFrame> {
+      FrameRecord recorded;
+      if (!reader.next(recorded)) return std::nullopt;
+      return SeenFrame{
+          without_detections(std::move(recorded)), with_images ? image(k++) : cv::Mat3b{}, {}};
+    };
+    const auto work = [&](SeenFrame& seen) {
+      ask(watcher.detector, seen.image, {}, seen.record);
+      watcher.sink(seen.record, seen.image);
+    };
+    for_each_frame(make, work, threads);
     watcher.detector.finish();
     end.diagnostics.push_back(watcher.detector.diagnostics());
   }

@@ -39,8 +39,9 @@ class EarlierRun {
   /// Processes all frames for one watcher after another, like `bench::run`.
   /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
   ///   with losses of compression. Else the pictures are empty.
+  /// \param threads as of `bench::run`.
   /// \throws the exceptions of the detectors and the sinks.
-  RunEnd run(std::span<const Watcher> watchers, bool with_images) const;
+  RunEnd run(std::span<const Watcher> watchers, bool with_images, int threads = 1) const;
 
  private:
   cv::Mat3b image(std::size_t position) const;

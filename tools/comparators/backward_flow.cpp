@@ -1,12 +1,11 @@
 #include "tools/comparators/backward_flow.h"
 
-#include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 
 namespace lcs::comparators {
 
 BackwardFlow::BackwardFlow(const FlowParameters& parameters)
-    : parameters_(parameters), pyramids_(parameters.baseline_s) {
+    : flow_(sim::optical_flow()), parameters_(parameters), pyramids_(parameters.baseline_s) {
   const bool window_is_right = parameters.window_px >= 3 && parameters.window_px % 2 == 1;
   if (!window_is_right || parameters.levels < 0 || parameters.max_iterations < 1) {
     throw std::invalid_argument("a parameter of the optical flow is out of its range");
@@ -15,9 +14,9 @@ BackwardFlow::BackwardFlow(const FlowParameters& parameters)
 
 const EgoMotion& BackwardFlow::see(const cv::Mat1b& grey, const EgoMotion& motion) {
   const cv::Size window(parameters_.window_px, parameters_.window_px);
-  cv::buildOpticalFlowPyramid(grey, pyramids_.begin(motion), window, parameters_.levels,
-                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
-                              /*tryReuseInputImage=*/false);
+  flow_.build_pyramid(grey, pyramids_.begin(motion), window, parameters_.levels,
+                      /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                      /*tryReuseInputImage=*/false);
   return pyramids_.motion();
 }
 
@@ -43,9 +42,9 @@ void BackwardFlow::lucas_kanade(const Pyramid& from, const Pyramid& to, const Po
                                 Points& there, std::vector<unsigned char>& found) const {
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
                                parameters_.max_iterations, parameters_.least_step_px);
-  cv::calcOpticalFlowPyrLK(from, to, here, there, found, cv::noArray(),
-                           {parameters_.window_px, parameters_.window_px}, parameters_.levels,
-                           until, cv::OPTFLOW_USE_INITIAL_FLOW, parameters_.least_eigenvalue);
+  flow_.lucas_kanade(from, to, here, there, found, cv::noArray(),
+                     {parameters_.window_px, parameters_.window_px}, parameters_.levels, until,
+                     cv::OPTFLOW_USE_INITIAL_FLOW, parameters_.least_eigenvalue);
 }
 
 }  // namespace lcs::comparators

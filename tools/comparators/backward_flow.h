@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "filter/kinematics/camera.h"
+#include "sim/pictures/media.h"
 #include "tools/comparators/lookback.h"
 
 namespace lcs::comparators {
@@ -54,6 +55,7 @@ class BackwardFlow {
   void lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here, Points& there,
                     std::vector<unsigned char>& found) const;
 
+  const sim::OpticalFlow& flow_;
   FlowParameters parameters_;
   Lookback<Pyramid> pyramids_;
 

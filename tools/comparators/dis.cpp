@@ -4,13 +4,15 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/pictures/media.h"
+
 namespace lcs::comparators {
 
 DisDetector::DisDetector(const Intrinsics& camera, const DisParameters& parameters)
     : camera_(camera),
       parameters_(parameters),
       pictures_(parameters.baseline_s),
-      flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
+      flow_(sim::optical_flow().dis(cv::DISOpticalFlow::PRESET_MEDIUM)),
       groups_(parameters.groups) {}
 
 const FrameResult& DisDetector::step(const bench::DetectorInput& input) {

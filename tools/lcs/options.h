@@ -140,6 +140,17 @@ inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
       ->type_name("WHAT");
 }
 
+/// Adds `--threads`.
+inline CLI::Option* add_threads_option(CLI::App& command, int& threads) {
+  return add_integer_option(
+             command, "--threads", threads,
+             "1 or 2; with 2 the next frame is made, and its corners are found, while "
+             "a second thread filters and writes this one: the same results on two "
+             "cores, sooner. If not given, 1",
+             1, 2)
+      ->type_name("N");
+}
+
 inline void add_quiet_option(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet", quiet, "Print only errors and warnings");
 }

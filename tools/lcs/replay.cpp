@@ -159,6 +159,7 @@ Command add_replay_command(CLI::App& app) {
   add_output_file_option(command, "--write", options.write, options.force,
                          "Write the scenario that the options make to this file, and run nothing");
   add_result_options(command, options.request.no_video, options.request.events);
+  add_threads_option(command, options.request.threads);
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return {command, [owned] { return replay(*owned); }};

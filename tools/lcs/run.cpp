@@ -167,6 +167,7 @@ Command add_run_command(CLI::App& app) {
       "--view", options.view,
       "Show the four panels in a window while it runs, no faster than the camera: space "
       "pauses and goes on, . goes on by one frame, q closes the window");
+  add_threads_option(command, options.request.threads)->excludes("--view");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return {command, [owned] { return run(*owned); }};

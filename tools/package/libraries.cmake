@@ -1,11 +1,12 @@
-# Installs the shared libraries that the program, its codecs and OSMesa need, and their licences.
+# Installs the shared libraries that the program, its codecs, its optical flow and OSMesa need, and
+# their licences.
 # glibc and GCC's libraries are the machine's own, because its graphics drivers need theirs.
 if(NOT osmesa)
   message(FATAL_ERROR "OSMesa is missing (Debian: libosmesa6), and an archive needs it")
 endif()
 file(GET_RUNTIME_DEPENDENCIES RESOLVED_DEPENDENCIES_VAR libraries
   EXECUTABLES ${program}
-  LIBRARIES ${codecs} ${osmesa}
+  LIBRARIES ${late} ${osmesa}
   PRE_EXCLUDE_REGEXES "^libmujoco"
     "^(ld-linux.*|lib(c|m|mvec|dl|rt|pthread|resolv|util|anl|stdc\\+\\+|gcc_s))\\.so")
 set(prefix $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})
