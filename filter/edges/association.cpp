@@ -12,9 +12,6 @@
 namespace lcs {
 namespace {
 
-/// ln of the least ratio that counts; anything less is lost in rounding.
-const double kNone = std::log(std::numeric_limits<float>::epsilon());
-
 /// A normal density times a probability.
 ExpectedTrack::Share share_of(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
   const Eigen::Matrix2f precision = covariance.inverse().cast<float>();
@@ -76,19 +73,14 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   }
 }
 
-/// Keeps the pair if it is among the likeliest of the last corner in `first_`.
-void Association::offer(const Pair& pair) {
-  const std::size_t first = first_.back();
-  if (pairs_.size() < first + kCrowd) {
-    pairs_.push_back(pair);
-  } else if (pair < pairs_.back()) {
-    pairs_.back() = pair;
-  } else {
-    return;
-  }
-  std::size_t i = pairs_.size() - 1;
-  for (; i > first && pair < pairs_[i - 1]; --i) pairs_[i] = pairs_[i - 1];
-  pairs_[i] = pair;
+/// Keeps the pair if it is among the likeliest of its corner.
+void Association::offer(std::size_t corner, const Pair& pair) {
+  Pair* const pairs = &pairs_[corner * kMostPairs];
+  std::uint32_t& count = counts_[corner];
+  if (count == kMostPairs && !(pair < pairs[count - 1])) return;
+  std::size_t i = count < kMostPairs ? count++ : count - 1;
+  for (; i > 0 && pair < pairs[i - 1]; --i) pairs[i] = pairs[i - 1];
+  pairs[i] = pair;
 }
 
 void Association::Sought::clear() {
@@ -123,11 +115,12 @@ void Association::seek(std::span<const Track> predicted, double dt_s) {
   all_.build(predicted, parameters_.neighbour_reach_px);
 }
 
-/// Adds the pairs of a corner, the last in `first_`, with the tracks that are sought.
+/// Adds the pairs of a corner with the tracks that are sought.
 /// \param signature null if there is none.
 /// \return whether it surely continues one of them: near its prediction, with a signature of
 ///   which few bits differ.
-bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought) {
+bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
+                             const Sought& sought) {
   bool is_sure = false;
   std::size_t count = sought.grid.find_within(x_px, sought.reach_px, near_);
   if (signature != nullptr) {
@@ -150,7 +143,7 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
     // Half as far as a pair may be, in deviations and in bits.
     is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
                           ln_off_[i] > -0.5 * (0.5 * kFar) * (0.5 * kFar));
-    offer({ln_density_[i] + likeness, which_[i], static_cast<float>(likeness)});
+    offer(corner, {ln_density_[i] + likeness, which_[i], static_cast<float>(likeness)});
   }
   return is_sure;
 }
@@ -161,38 +154,31 @@ void Association::find_pairs(const Chi& chi) {
   refill_column(which_, expected_.size());
   refill_column(ln_density_, expected_.size());
   refill_column(ln_off_, expected_.size());
-  pairs_.clear();
-  // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
-  pairs_.reserve(chi.size() * kCrowd);
-  const std::size_t most = chi.size() * kCrowd + kLanes;
-  if (step_x_.size() < most) {
-    for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) column->resize(most);
+  refill(pairs_, chi.size() * kMostPairs);
+  refill(counts_, chi.size());
+  for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) {
+    refill_column(*column, pairs_.size());
   }
-  first_.assign(1, 0);
   crowd_.clear();
   ln_clutter_.clear();
-  ln_likest_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
-    if (!find_pairs(x, signature, followed_)) {
-      pairs_.resize(first_.back());
-      find_pairs(x, signature, all_);
+    if (!find_pairs(c, x, signature, followed_)) {
+      counts_[c] = 0;
+      find_pairs(c, x, signature, all_);
     }
     crowd_.push_back(1 +
                      static_cast<int>(all_.grid.count_within(x, parameters_.neighbour_reach_px)));
     const float ln_clutter =
         ln_clutter_.emplace_back(static_cast<float>(std::log(clutter_ppx2(c))));
-    ln_likest_.push_back(static_cast<float>(kNone));
-    for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
+    for (std::size_t p = c * kMostPairs, end = p + counts_[c]; p < end; ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
       step_x_[p] = static_cast<float>(x.x()) - expected_[pair.track].x_px;
       step_y_[p] = static_cast<float>(x.y()) - expected_[pair.track].y_px;
       likeness_of_[p] = pair.likeness;
-      ln_likest_.back() = std::max(ln_likest_.back(), pair.likeness - ln_clutter);
     }
-    first_.push_back(static_cast<std::uint32_t>(pairs_.size()));
   }
 }
 
@@ -215,27 +201,21 @@ void Association::weigh_voices(const Neighbourhood& around) {
 /// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
 /// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
 Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                                          const PairColumns& pairs, double ln_spread) const {
+                                          const PairColumns& pairs) const {
   const double far_px = kFar * parameters_.neighbour_reach_px, far2_px2 = far_px * far_px;
   const std::size_t first_voice = corner * voices.size();
   std::size_t count = 0;
-  double most = 0;  // that the voices can add to any pair
-  for (; count < voices.size() && voices[count].distance2 <= far2_px2; ++count) {
-    most += voice_weights_[first_voice + count] *
-            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_spread);
-  }
+  while (count < voices.size() && voices[count].distance2 <= far2_px2) ++count;
   Match best{0, static_cast<int>(corner), -1, 0};
   std::array<float, kLanes> votes;
-  for (std::size_t p = first_[corner], end = first_[corner + 1]; p < end; p += kLanes) {
-    if (pairs_[p].weight + most < best.weight) break;
-    loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
-                  voice_clutter_.data() + first_voice, count, p, votes.data());
-    for (std::size_t step = 0; step < std::min(kLanes, end - p); ++step) {
-      const Pair& pair = pairs_[p + step];
-      const double weight = pair.weight + votes[step];
-      if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
-        best = {weight, best.corner, pair.track, pair.likeness};
-      }
+  const std::size_t first = corner * kMostPairs, end = first + counts_[corner];
+  loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
+                voice_clutter_.data() + first_voice, count, first, votes.data());
+  for (std::size_t p = first; p < end; ++p) {
+    const Pair& pair = pairs_[p];
+    const double weight = pair.weight + votes[p - first];
+    if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
+      best = {weight, best.corner, pair.track, pair.likeness};
     }
   }
   return best;
@@ -254,15 +234,13 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   const PairColumns pairs = {step_x_.data(),
                              step_y_.data(),
                              likeness_of_.data(),
-                             first_.data(),
+                             counts_.data(),
                              static_cast<float>(4 * noise2_px2),
                              static_cast<float>(parameters_.step_share * parameters_.step_share)};
-  // The least that a vote can spread: without a step.
-  const double ln_spread = std::log(2 * kPi * 4 * noise2_px2);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (first_[c] == first_[c + 1]) continue;
-    const Match best = best_pair(c, around.of(c), pairs, ln_spread);
+    if (counts_[c] == 0) continue;
+    const Match best = best_pair(c, around.of(c), pairs);
     if (best.track >= 0) matches_.push_back(best);
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {

@@ -77,14 +77,15 @@ class Association {
   };
 
   void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
+  bool find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
+                  const Sought& sought);
   void seek(std::span<const Track> predicted, double dt_s);
-  bool find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought);
   void find_pairs(const Chi& chi);
-  void offer(const Pair& pair);
+  void offer(std::size_t corner, const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   void weigh_voices(const Neighbourhood& around);
-  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, const PairColumns& pairs,
-                  double ln_spread) const;
+  Match best_pair(std::size_t corner, std::span<const Neighbour> voices,
+                  const PairColumns& pairs) const;
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
@@ -98,12 +99,11 @@ class Association {
   std::vector<int> which_;                  // the tracks of these
   std::vector<float> ln_density_, ln_off_;  // `Loops::densities` of these
   std::vector<ExpectedTrack> expected_;     // of each track
-  std::vector<Pair> pairs_;                 // by corner
-  std::vector<std::uint32_t> first_;        // index of each corner's first pair
+  std::vector<Pair> pairs_;                 // `kMostPairs` places for each corner
+  std::vector<std::uint32_t> counts_;       // of the pairs of each corner
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<int> crowd_;                            // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner
-  std::vector<float> ln_likest_;  // of each corner: largest likeness over clutter
   // The voices of each corner, nearest first: its neighbours, with weights and ln_clutter.
   std::vector<int> voices_;
   std::vector<float> voice_weights_, voice_clutter_;

@@ -268,10 +268,10 @@ void votes(const PairColumns& pairs, const int* neighbours, const float* weights
   const Floats per_px2 = -0.5F / variance, ln_spread = log_of(6.283185307179586F * variance);
   Floats votes[kLanes] = {};  // several sums, so that an addition need not wait for the last
   for (std::size_t voice = 0; voice < count; ++voice) {
-    const std::uint32_t* const first = pairs.first + neighbours[voice];
-    const std::size_t end = first[1];
+    const std::size_t first = static_cast<std::size_t>(neighbours[voice]) * kMostPairs;
+    const std::size_t end = first + pairs.counts[neighbours[voice]];
     Floats agrees = Floats{} - 1e30F;  // ln V, before what is common to all pairs of a corner
-    for (std::size_t p = first[0]; p < end; ++p) {
+    for (std::size_t p = first; p < end; ++p) {
       const Floats x = pairs.step_x_px[p] - step_x, y = pairs.step_y_px[p] - step_y;
       agrees = larger(agrees, per_px2 * (x * x + y * y) + pairs.likeness[p]);
     }
