@@ -188,6 +188,7 @@ class Wall : public FrameSource {
     ++k_;
     return true;
   }
+  bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat&) const override { return false; }
   void label(FrameRecord& frame) override { set_corner_truth(Truth::unknown, frame); }
   Diagnostics diagnostics() const override { return {}; }
 
@@ -214,8 +215,9 @@ TEST(ForEachFrame, TheFilterSaysInASecondThreadAsInOne) {
     LcsDetector filter(Wall::kCamera, filter_parameters(scenario));
     Recording recording;
     std::set<std::thread::id> workers;
-    const Watcher watcher{filter, recording, [&](const FrameRecord&, const cv::Mat3b&) {
+    const Watcher watcher{filter, [&](const FrameRecord& frame, const cv::Mat3b&) {
                             workers.insert(std::this_thread::get_id());
+                            recording.frames.push_back(frame);
                           }};
     run(wall, CornerFinder(scenario), {&watcher, 1}, threads);
     EXPECT_EQ(workers.contains(std::this_thread::get_id()), threads == 1);
