@@ -257,7 +257,9 @@ struct DescribeFields {
 
   template <class T, class Form = Plain>
   void operator()(const Key& key, const T& member, const Form& form = {}) {
-    Kind value = kind_of(form, member);
+    add(key, kind_of(form, member));
+  }
+  void add(const Key& key, const Kind& value) {
     const std::string name(key.name), absent = without(key);
     if (key.without == kRequired) required.push_back(key.name);
     std::string description(key.meaning);
