@@ -75,10 +75,10 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
 
 /// Keeps the pair if it is among the likeliest of its corner.
 void Association::offer(std::size_t corner, const Pair& pair) {
-  Pair* const pairs = &pairs_[corner * kMostPairs];
+  Pair* const pairs = &pairs_[corner * most_pairs_];
   std::uint32_t& count = counts_[corner];
-  if (count == kMostPairs && !(pair < pairs[count - 1])) return;
-  std::size_t i = count < kMostPairs ? count++ : count - 1;
+  if (count == most_pairs_ && !(pair < pairs[count - 1])) return;
+  std::size_t i = count < most_pairs_ ? count++ : count - 1;
   for (; i > 0 && pair < pairs[i - 1]; --i) pairs[i] = pairs[i - 1];
   pairs[i] = pair;
 }
@@ -154,7 +154,10 @@ void Association::find_pairs(const Chi& chi) {
   refill_column(which_, expected_.size());
   refill_column(ln_density_, expected_.size());
   refill_column(ln_off_, expected_.size());
-  refill(pairs_, chi.size() * kMostPairs);
+  // Of pairs with signatures one vector is kept. Without signatures a new mover's pairs are all
+  // alike, and only the votes tell them apart.
+  most_pairs_ = chi.signatures.empty() ? kCrowd : kLanes;
+  refill(pairs_, chi.size() * most_pairs_);
   refill(counts_, chi.size());
   for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) {
     refill_column(*column, pairs_.size());
@@ -172,7 +175,7 @@ void Association::find_pairs(const Chi& chi) {
                      static_cast<int>(all_.grid.count_within(x, parameters_.neighbour_reach_px)));
     const float ln_clutter =
         ln_clutter_.emplace_back(static_cast<float>(std::log(clutter_ppx2(c))));
-    for (std::size_t p = c * kMostPairs, end = p + counts_[c]; p < end; ++p) {
+    for (std::size_t p = c * most_pairs_, end = p + counts_[c]; p < end; ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
       step_x_[p] = static_cast<float>(x.x()) - expected_[pair.track].x_px;
@@ -208,12 +211,15 @@ Association::Match Association::best_pair(std::size_t corner, std::span<const Ne
   while (count < voices.size() && voices[count].distance2 <= far2_px2) ++count;
   Match best{0, static_cast<int>(corner), -1, 0};
   std::array<float, kLanes> votes;
-  const std::size_t first = corner * kMostPairs, end = first + counts_[corner];
-  loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
-                voice_clutter_.data() + first_voice, count, first, votes.data());
+  const std::size_t first = corner * most_pairs_, end = first + counts_[corner];
   for (std::size_t p = first; p < end; ++p) {
+    const std::size_t lane = (p - first) % kLanes;
+    if (lane == 0) {
+      loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
+                    voice_clutter_.data() + first_voice, count, p, votes.data());
+    }
     const Pair& pair = pairs_[p];
-    const double weight = pair.weight + votes[p - first];
+    const double weight = pair.weight + votes[lane];
     if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
       best = {weight, best.corner, pair.track, pair.likeness};
     }
@@ -235,6 +241,7 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
                              step_y_.data(),
                              likeness_of_.data(),
                              counts_.data(),
+                             most_pairs_,
                              static_cast<float>(4 * noise2_px2),
                              static_cast<float>(parameters_.step_share * parameters_.step_share)};
   matches_.clear();

@@ -99,7 +99,8 @@ class Association {
   std::vector<int> which_;                  // the tracks of these
   std::vector<float> ln_density_, ln_off_;  // `Loops::densities` of these
   std::vector<ExpectedTrack> expected_;     // of each track
-  std::vector<Pair> pairs_;                 // `kMostPairs` places for each corner
+  std::size_t most_pairs_ = 0;              // that are kept of each corner
+  std::vector<Pair> pairs_;                 // so many places for each corner
   std::vector<std::uint32_t> counts_;       // of the pairs of each corner
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<int> crowd_;                            // of each corner

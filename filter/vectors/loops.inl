@@ -268,7 +268,7 @@ void votes(const PairColumns& pairs, const int* neighbours, const float* weights
   const Floats per_px2 = -0.5F / variance, ln_spread = log_of(6.283185307179586F * variance);
   Floats votes[kLanes] = {};  // several sums, so that an addition need not wait for the last
   for (std::size_t voice = 0; voice < count; ++voice) {
-    const std::size_t first = static_cast<std::size_t>(neighbours[voice]) * kMostPairs;
+    const std::size_t first = static_cast<std::size_t>(neighbours[voice]) * pairs.places;
     const std::size_t end = first + pairs.counts[neighbours[voice]];
     Floats agrees = Floats{} - 1e30F;  // ln V, before what is common to all pairs of a corner
     for (std::size_t p = first; p < end; ++p) {

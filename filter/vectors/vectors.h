@@ -60,13 +60,11 @@ struct ExpectedTrack {
   float anywhere_ppx2;
 };
 
-/// The likeliest pairs of a corner that are kept: one vector.
-inline constexpr std::size_t kMostPairs = kLanes;
-
 /// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
-  const std::uint32_t* counts;  ///< of each corner's pairs; each has `kMostPairs` places
+  const std::uint32_t* counts;  ///< of each corner's pairs
+  std::size_t places;           ///< for the pairs of each corner
   /// Variance on an axis of the difference of two steps of one body: this, and a share of the
   /// squared step (MODEL.md (7)).
   float variance_px2, share2;

@@ -385,7 +385,7 @@ TEST(Association, IsOneToOne) {
   }
 }
 
-/// MODEL.md (7), term by term: each pair with the votes of all neighbours.
+/// MODEL.md (7), term by term: each kept pair with the votes of all neighbours.
 std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi& chi,
                                     const std::vector<Track>& tracks) {
   const double reach = parameters.max_speed_pxps * kDt_s, near = parameters.neighbour_reach_px;
@@ -405,6 +405,23 @@ std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi&
     });
     return static_cast<double>(1 + about) / (kPi * near * near);
   };
+  const auto ln_density = [&](std::size_t c, const Track& track) {
+    const double P = chance(track.belief);
+    return std::log((1 - t) * ((1 - P) * density(track.as_static, chi.locations[c], kNoise2_px2) +
+                               P * anywhere) +
+                    t * anywhere);
+  };
+  std::vector<std::vector<std::size_t>> kept(chi.size());  // tracks of the likeliest pairs
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    std::vector<std::pair<double, std::size_t>> pairs;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (!is_pair(c, tracks[i])) continue;
+      pairs.emplace_back(-ln_density(c, tracks[i]) - likeness(c, tracks[i]), i);
+    }
+    std::ranges::sort(pairs);
+    if (!chi.signatures.empty()) pairs.resize(std::min<std::size_t>(pairs.size(), 8));
+    for (const auto& [less, i] : pairs) kept[c].push_back(i);
+  }
   std::vector<std::tuple<double, int, int>> best;  // per corner: -weight, corner, track
   for (std::size_t c = 0; c < chi.size(); ++c) {
     std::vector<std::pair<double, std::size_t>> others;
@@ -416,23 +433,16 @@ std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi&
     if (others.size() > static_cast<std::size_t>(parameters.neighbours))
       others.resize(static_cast<std::size_t>(parameters.neighbours));
     best.emplace_back(0, static_cast<int>(c), -1);
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (!is_pair(c, tracks[i])) continue;
-      const Vec2& x = chi.locations[c];
-      const double P = chance(tracks[i].belief);
-      const double p =
-          (1 - t) * ((1 - P) * density(tracks[i].as_static, x, kNoise2_px2) + P * anywhere) +
-          t * anywhere;
-      double weight = std::log(p / clutter(c)) + likeness(c, tracks[i]);
-      const Vec2 step = x - tracks[i].place_px;
+    for (const std::size_t i : kept[c]) {
+      double weight = ln_density(c, tracks[i]) - std::log(clutter(c)) + likeness(c, tracks[i]);
+      const Vec2 step = chi.locations[c] - tracks[i].place_px;
       const double variance =
           4 * kNoise2_px2 + std::pow(parameters.step_share, 2) * step.squaredNorm();
       for (const auto& [apart, o] : others) {
         double agrees = 0;
-        for (const Track& theirs : tracks) {
-          if (!is_pair(o, theirs)) continue;
-          const Vec2 off = chi.locations[o] - theirs.place_px - step;
-          agrees = std::max(agrees, gauss(off, variance) * std::exp(likeness(o, theirs)));
+        for (const std::size_t theirs : kept[o]) {
+          const Vec2 off = chi.locations[o] - tracks[theirs].place_px - step;
+          agrees = std::max(agrees, gauss(off, variance) * std::exp(likeness(o, tracks[theirs])));
         }
         weight += std::exp(-0.5 * apart * apart / (near * near)) *
                   std::log(0.5 * (1 + agrees / clutter(o)));
@@ -449,7 +459,7 @@ std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi&
   return track_of;
 }
 
-TEST(Association, IsThatOfTheFormulaThoughItStopsAsking) {
+TEST(Association, IsThatOfTheFormula) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Crowd crowd(seed);
     EXPECT_EQ(match(kUsual, chi_of(crowd.corners), crowd.tracks),

@@ -89,9 +89,11 @@ TEST(Loops, TanhIsThatOfTheLibrary) {
 
 TEST(Loops, VotesAreThoseOfTheFormula) {
   Random random(3);
-  const std::vector<float> x = column(random, 21, -9, 9), y = column(random, 21, -9, 9);
-  const std::vector<float> likeness = column(random, 21, 0, 10);
-  const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
+  const std::vector<std::uint32_t> counts = {3, 0, 11, 7};  // of four corners' pairs
+  constexpr std::size_t kPlaces = 11;
+  const std::size_t places = kPlaces * counts.size() + kLanes;
+  const std::vector<float> x = column(random, places, -9, 9), y = column(random, places, -9, 9);
+  const std::vector<float> likeness = column(random, places, 0, 10);
   const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
   const std::vector<float> weights = column(random, voices.size(), 0, 1);
   const std::vector<float> clutter = column(random, voices.size(), -7, -3);
@@ -99,7 +101,7 @@ TEST(Loops, VotesAreThoseOfTheFormula) {
   constexpr std::size_t kAsked = 5;
   for (const Loops* way : kWays) {
     std::vector<float> sums(kLanes);
-    way->votes({x.data(), y.data(), likeness.data(), first.data(), kVariance, kShare2},
+    way->votes({x.data(), y.data(), likeness.data(), counts.data(), kPlaces, kVariance, kShare2},
                voices.data(), weights.data(), clutter.data(), voices.size(), kAsked, sums.data());
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const double step_x = x[kAsked + lane], step_y = y[kAsked + lane];
@@ -107,7 +109,8 @@ TEST(Loops, VotesAreThoseOfTheFormula) {
       double expected = 0;
       for (std::size_t voice = 0; voice < voices.size(); ++voice) {
         double ratio = 0;
-        for (auto p = first[voices[voice]]; p < first[voices[voice] + 1]; ++p) {
+        const std::size_t first = kPlaces * static_cast<std::size_t>(voices[voice]);
+        for (std::size_t p = first; p < first + counts[voices[voice]]; ++p) {
           const double apart2 = std::pow(x[p] - step_x, 2) + std::pow(y[p] - step_y, 2);
           ratio = std::max(ratio, std::exp(likeness[p] - apart2 / (2 * variance) - clutter[voice]) /
                                       (2 * std::numbers::pi * variance));
@@ -207,8 +210,9 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   const TieColumns nodes = {x.data(),      y.data(),       step_x.data(),   step_y.data(),
                             reach2.data(), length2.data(), variance.data(), 9};
   const LinkColumns edges = {x.data(), y.data(), reach2.data(), step_x.data(), variance.data(), 9};
-  const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
-  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data(), 1, 0.04F};
+  const std::vector<std::uint32_t> counts = {3, 0, 11, 7};  // of four corners' pairs
+  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), counts.data(), 11, 1,
+                             0.04F};
   const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
   std::vector<std::pair<std::vector<std::uint32_t>, std::vector<float>>> tied;
   std::vector<std::pair<std::vector<int>, std::vector<float>>> linked;
