@@ -49,7 +49,8 @@ struct Frames {
   int count = 0;                                   ///< number of frames; 0: unknown
   sim::Versions versions = {};                     ///< empty if nothing is simulated
   const bench::FramePictures* pictures = nullptr;  ///< of an earlier run; null: none
-  std::vector<std::string> missing = {};  ///< warnings about data that the earlier run lacks
+  /// Warnings about data that the earlier run lacks, once `run` has ended.
+  std::function<std::vector<std::string>()> missing = [] { return std::vector<std::string>(); };
   std::function<bench::RunEnd(std::span<const bench::Watcher>)> run;
 };
 
@@ -89,24 +90,27 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
                     "record it with --events",
                     request.recorded));
   }
-  std::vector<std::string> missing;
-  if (earlier->lacks_signatures()) {
-    missing.push_back(
-        fmt::format("{} has no signatures of its corners, so that the filter goes by their places "
-                    "alone; leave out --recorded to have them made",
-                    request.recorded));
-  }
-  if (earlier->lacks_gaps()) {
-    missing.push_back(fmt::format(
-        "{} does not say what the filter saw below circles, so that bodies that approach "
-        "at constant speed are not found; leave out --recorded to have it looked at",
-        request.recorded));
-  }
+  const auto missing = [earlier, folder = request.recorded] {
+    std::vector<std::string> lines;
+    if (earlier->lacks_signatures()) {
+      lines.push_back(fmt::format(
+          "{} has no signatures of its corners, so that the filter goes by their places "
+          "alone; leave out --recorded to have them made",
+          folder));
+    }
+    if (earlier->lacks_gaps()) {
+      lines.push_back(fmt::format(
+          "{} does not say what the filter saw below circles, so that bodies that approach "
+          "at constant speed are not found; leave out --recorded to have it looked at",
+          folder));
+    }
+    return lines;
+  };
   return {.camera = camera,
           .info = earlier->info(),
           .count = earlier->frames(),
           .pictures = earlier->pictures(),
-          .missing = std::move(missing),
+          .missing = missing,
           .run = [earlier, with_images,
                   threads = request.threads](std::span<const bench::Watcher> watchers) {
             return earlier->run(watchers, with_images, threads);
@@ -264,7 +268,6 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   for (const Watching& one : all) names.insert(one.spec.name);
   caller.warn(bench::not_asked(scenario.criteria, names));
   caller.warn(bench::not_judged(scenario.criteria));
-  caller.warn(frames.missing);
   bench::RunEnd end;
   {
     const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
@@ -279,6 +282,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     }
     end = frames.run(watchers);
   }
+  caller.warn(frames.missing());
   caller.check();
   std::vector<bench::Metrics> metrics;
   std::vector<bench::Output*> outputs;

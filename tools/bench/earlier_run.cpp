@@ -70,10 +70,7 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   RecordingReader reader(folder);
   info_ = reader.run();
   info_.detector = {};
-  for (FrameRecord frame; reader.next(frame); ++frames_) {
-    lacks_signatures_ |= frame.signatures.size() < frame.corners_px.size();
-    lacks_gaps_ |= !frame.gaps;
-  }
+  while (reader.skip()) ++frames_;
   require_same(folder, info_, frames_, scenario);
   if (!info_.origin) info_.origin = scenario.origin;
   const fs::path pictures = folder / kPicturesFile;
@@ -94,7 +91,7 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int threads) const {
+RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int threads) {
   RunEnd end{.diagnostics = {}, .warnings = info_.warnings};
   for (const Watcher& watcher : watchers) {
     RecordingReader reader(folder_);
@@ -102,6 +99,8 @@ RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int 
     const auto make = [&]() -> std::optional<SeenFrame> {
       FrameRecord recorded;
       if (!reader.next(recorded)) return std::nullopt;
+      lacks_signatures_ |= recorded.signatures.size() < recorded.corners_px.size();
+      lacks_gaps_ |= !recorded.gaps;
       return SeenFrame{
           without_detections(std::move(recorded)), with_images ? image(k++) : cv::Mat3b{}, {}};
     };

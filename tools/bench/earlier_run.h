@@ -28,20 +28,20 @@ class EarlierRun {
   const RunInfo& info() const { return info_; }
   int frames() const { return frames_; }
 
-  /// Whether some corner has no signature, as in a run with only a comparator. The filter may then
-  /// decide differently from a run of its own.
+  /// Whether, as `run` has found, some corner has no signature, as in a run with only a comparator.
+  /// The filter may then decide differently from a run of its own.
   bool lacks_signatures() const { return lacks_signatures_; }
 
-  /// Whether the run did not look at gaps below circles, as one with only a comparator. The filter
-  /// then finds no bodies that approach at constant speed.
+  /// Whether, as `run` has found, the run did not look at gaps below circles, as one with only a
+  /// comparator. The filter then finds no bodies that approach at constant speed.
   bool lacks_gaps() const { return lacks_gaps_; }
 
   /// Processes all frames for one watcher after another, like `bench::run`.
   /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
   ///   with losses of compression. Else the pictures are empty.
   /// \param threads as of `bench::run`.
-  /// \throws the exceptions of the detectors and the sinks.
-  RunEnd run(std::span<const Watcher> watchers, bool with_images, int threads = 1) const;
+  /// \throws the exceptions of the detectors and the sinks; std::runtime_error for a damaged file.
+  RunEnd run(std::span<const Watcher> watchers, bool with_images, int threads = 1);
 
  private:
   cv::Mat3b image(std::size_t position) const;
