@@ -1,11 +1,9 @@
 #include "sim/camera/photograph.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/camera/linear_light.h"
-#include "sim/pictures/media.h"
 #include "sim/pictures/picture_file.h"
 
 namespace lcs::sim {
@@ -68,9 +66,7 @@ Exposure Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int
   sensor_.expose(light, exposure, k);
   control_.see(light);
   to_codes(light, picture);
-  if (jpeg_quality_) {
-    media().imdecode(encode_jpeg(picture, *jpeg_quality_), cv::IMREAD_COLOR).copyTo(picture);
-  }
+  if (jpeg_quality_) decode_jpeg(encode_jpeg(picture, *jpeg_quality_)).copyTo(picture);
   return exposure;
 }
 

@@ -3,14 +3,16 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <turbojpeg.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
+#include <new>
 #include <string>
 
 #include "sim/pictures/media.h"
@@ -179,6 +181,16 @@ bool is_damaged(std::string_view heard) {
          heard.find("extraneous bytes before marker 0xd9") == heard.npos;
 }
 
+PictureError broken() {
+  return PictureError("the picture is broken; give a whole one");
+}
+
+/// Takes a new handle.
+std::unique_ptr<void, decltype(&tjDestroy)> turbojpeg(tjhandle handle) {
+  if (handle == nullptr) throw std::bad_alloc();
+  return {handle, tjDestroy};
+}
+
 }  // namespace
 
 std::optional<cv::Size2l> picture_size(std::string_view bytes) {
@@ -212,7 +224,6 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
                     "all; give a smaller one",
                     size->width, size->height, kMostPixels / 1'000'000));
   }
-  const auto broken = [] { return PictureError("the picture is broken; give a whole one"); };
   if (bytes.starts_with(kJpeg) && bytes.find(kJpegEnd, jpeg_frame(bytes)) == bytes.npos) {
     throw broken();  // for data in memory libjpeg does not report truncation
   }
@@ -228,12 +239,29 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
   return picture;
 }
 
-std::vector<unsigned char> encode_jpeg(const cv::Mat& picture, int quality) {
-  std::vector<unsigned char> bytes;
-  if (!media().imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
-    throw std::runtime_error("OpenCV cannot write JPEG");
+std::string encode_jpeg(const cv::Mat3b& picture, int quality) {
+  const auto jpeg = turbojpeg(tjInitCompress());
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const int failed =
+      tjCompress2(jpeg.get(), picture.data, picture.cols, static_cast<int>(picture.step),
+                  picture.rows, TJPF_BGR, &bytes, &size, TJSAMP_420, quality, TJFLAG_ACCURATEDCT);
+  const std::unique_ptr<unsigned char, decltype(&tjFree)> owner(bytes, tjFree);
+  if (failed != 0) throw std::runtime_error(tjGetErrorStr2(jpeg.get()));
+  return {reinterpret_cast<const char*>(bytes), size};
+}
+
+cv::Mat3b decode_jpeg(std::string_view bytes) {
+  const cv::Size2l size = jpeg_size(bytes).value_or(cv::Size2l());
+  cv::Mat3b picture(static_cast<int>(size.height), static_cast<int>(size.width));
+  const auto jpeg = turbojpeg(tjInitDecompress());
+  if (picture.empty() ||
+      tjDecompress2(jpeg.get(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                    picture.data, picture.cols, static_cast<int>(picture.step), picture.rows,
+                    TJPF_BGR, TJFLAG_ACCURATEDCT) != 0) {
+    throw broken();
   }
-  return bytes;
+  return picture;
 }
 
 cv::Mat read_picture(const std::filesystem::path& file, const input::Source& where, int flags) {

@@ -174,6 +174,23 @@ TEST(Picture, ThatIsDamagedIsRefusedWithoutALibrarysText) {
   }
 }
 
+TEST(Picture, AsJpegHasTheBytesAndThePixelsOfOpenCvs) {
+  for (const int quality : {1, 72, 100}) {
+    const cv::Mat3b all = drawn(80, 60), picture = all(cv::Rect(3, 5, 37, 21));
+    const std::string bytes = encode_jpeg(picture, quality);
+    EXPECT_EQ(bytes, encoded(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, quality}));
+    EXPECT_EQ(cv::norm(decode_jpeg(bytes), decode_picture(bytes, cv::IMREAD_COLOR), cv::NORM_INF),
+              0);
+    for (const std::string& broken :
+         {std::string(), bytes.substr(0, bytes.size() / 2),
+          std::string(bytes).replace(bytes.size() - 60, 40, std::string(40, '\xff'))}) {
+      testing::internal::CaptureStderr();
+      EXPECT_THROW(decode_jpeg(broken), PictureError);
+      EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    }
+  }
+}
+
 TEST(Picture, BytesBehindItsEndDoNoHarmAndStderrIsGivenBack) {
   testing::internal::CaptureStderr();
   for (const auto& [kind, bytes] : pictures(37, 21)) {

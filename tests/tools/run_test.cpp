@@ -455,9 +455,7 @@ TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
   refused("pictures.mjpeg has 8 pictures of 4 frames");
   rewrite(kPicturesFile, "");
   refused("pictures.mjpeg has 0 pictures of 4 frames");
-  const std::vector<unsigned char> small =
-      sim::encode_jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90);
-  rewrite(kPicturesFile, std::string(small.begin(), small.end()) + pictures);
+  rewrite(kPicturesFile, sim::encode_jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90) + pictures);
   refused("picture 0 has 160 x 120 pixels, and one of a camera of 640 x 480 has 640 x 480; run");
   const std::size_t frame = pictures.find("\xff\xc0");
   ASSERT_NE(frame, std::string::npos);

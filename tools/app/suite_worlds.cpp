@@ -59,9 +59,8 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
   } catch (const input::Error& error) {  // keep the runs without this picture
     caller.warn({error.what()});
   }
-  const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
   bench::write_file(folder / report::sheet_path(scenario),
-                    {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+                    sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality));
 }
 
 }  // namespace

@@ -138,8 +138,8 @@ void paint_views(const FrameRecord& frame, const std::vector<CornerOutcome>& out
     for (EventView& view : event.views) {
       if (view.frame != frame.index) continue;
       const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
-      const auto bytes = sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality);
-      view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      view.jpeg_base64 =
+          base64(sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality));
     }
   }
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
@@ -15,7 +14,7 @@
 namespace lcs::bench {
 namespace {
 
-/// A JPEG's first and last marker. OpenCV's JPEG data contain neither in between.
+/// A JPEG's first and last marker. The data of `sim::encode_jpeg` contain neither in between.
 constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
 
 constexpr const char* kRecordAgain = "run the scenario with --events again";
@@ -33,8 +32,7 @@ void PicturesWriter::write(const cv::Mat3b& image) {
   const double scale = kept_scale(image.cols);
   cv::Mat3b kept = image;
   if (scale < 1) cv::resize(image, kept, {}, scale, scale, cv::INTER_AREA);
-  const std::vector<unsigned char> bytes = sim::encode_jpeg(kept, kKeptQuality);
-  file_.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file_.write(sim::encode_jpeg(kept, kKeptQuality));
 }
 
 // At 40 kB a picture, enough for hundreds of thousands of frames.
@@ -86,7 +84,7 @@ cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   const std::uint64_t start = starts_.at(position);
   const std::string bytes = file_.bytes_at(start, starts_.at(position + 1) - start);
   try {
-    return sim::decode_picture(bytes, cv::IMREAD_COLOR);
+    return sim::decode_jpeg(bytes);
   } catch (const sim::PictureError&) {
     throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
                              " is broken; " + kRecordAgain);

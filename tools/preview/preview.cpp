@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kStands_m = 1e-4;  // m, largest step of a static actor between frames
 
-std::vector<unsigned char> jpeg_of(const cv::Mat3b& image) {
+std::string jpeg_of(const cv::Mat3b& image) {
   constexpr int kQuality = 85;
   return sim::encode_jpeg(image, kQuality);
 }

@@ -42,7 +42,7 @@ struct Look {
   int index = 0;
   cv::Size image_px = {};
   std::vector<sim::ObjectTruth> objects = {};
-  std::vector<unsigned char> jpeg = {};
+  std::string jpeg = {};
 };
 
 struct Preview {

@@ -348,12 +348,12 @@ class PreviewPage : public report::TextPage {
 
   void picture(std::size_t which) {
     const Look& look = preview_.looks[which];
-    const std::string_view bytes(reinterpret_cast<const char*>(look.jpeg.data()), look.jpeg.size());
     const double line = look.image_px.width / 640.0;
     add("<figure><svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"frame {2}\">\n<image "
         "width=\"{0}\" height=\"{1}\" href=\"data:image/jpeg;base64,{3}\"/>\n<path "
         "class=\"corners\" stroke-width=\"{4:.1f}\" d=\"",
-        look.image_px.width, look.image_px.height, look.index, bench::base64(bytes), 2.5 * line);
+        look.image_px.width, look.image_px.height, look.index, bench::base64(look.jpeg),
+        2.5 * line);
     for (const Eigen::Vector2f& p : preview_.corners_px[which]) {
       add("M{:.0f} {:.0f}h0", p.x() + 0.5, p.y() + 0.5);
     }
