@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <simdjson.h>
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -22,7 +25,8 @@
 namespace lcs::bench {
 namespace {
 
-using Json = nlohmann::json;
+using Json = simdjson::dom::element;
+using JsonList = simdjson::dom::array;
 
 /// The longest image side; larger than any image, and small enough for sums not to overflow.
 constexpr int kLongest_px = 1 << 20;
@@ -44,48 +48,66 @@ void within(const std::string& place, const Use& use) {
   }
 }
 
-const Json& member(const Json& json, const char* key) {
+/// A member of an object, if it is there.
+std::optional<Json> find(Json json, const char* key) {
+  Json found;
+  return json[key].get(found) == simdjson::SUCCESS ? std::optional(found) : std::nullopt;
+}
+
+Json member(Json json, const char* key) {
   require(json.is_object(), "an object");
-  const auto found = json.find(key);
-  if (found == json.end()) throw std::runtime_error(fmt::format("has no {}", key));
+  const std::optional<Json> found = find(json, key);
+  if (!found) throw std::runtime_error(fmt::format("has no {}", key));
   return *found;
 }
 
-void read(const Json& json, bool& flag) {
-  require(json.is_boolean(), "true or false");
-  flag = json.get<bool>();
+JsonList list_of(Json json, const char* what = "a list") {
+  constexpr std::size_t kUncounted = 0xffffff;  // simdjson counts no further
+  JsonList list;
+  require(json.get(list) == simdjson::SUCCESS && list.size() < kUncounted, what);
+  return list;
 }
-void read(const Json& json, std::string& text) {
-  require(json.is_string(), "a text");
-  text = json.get<std::string>();
+
+void read(Json json, bool& flag) {
+  require(json.get(flag) == simdjson::SUCCESS, "true or false");
 }
-void read(const Json& json, double& number) {
-  require(json.is_number(), "a number");
-  number = json.get<double>();
+void read(Json json, std::string_view& text) {
+  require(json.get(text) == simdjson::SUCCESS, "a text");
 }
-void read(const Json& json, OrInfinite value) {
+void read(Json json, std::string& text) {
+  std::string_view view;
+  read(json, view);
+  text = view;
+}
+void read(Json json, double& number) {
+  require(json.get(number) == simdjson::SUCCESS, "a number");
+}
+void read(Json json, OrInfinite value) {
   value.number = std::numeric_limits<double>::infinity();
   if (!json.is_null()) read(json, value.number);
 }
-void read(const Json& json, OrNan value) {
+void read(Json json, OrNan value) {
   value.number = std::numeric_limits<double>::quiet_NaN();
   if (!json.is_null()) read(json, value.number);
 }
 template <class Integer>
 requires std::is_integral_v<Integer>
-void read(const Json& json, Integer& number) {
-  const bool is_in_range =
-      json.is_number_unsigned()
-          ? std::in_range<Integer>(json.get<std::uint64_t>())
-          : json.is_number_integer() && std::in_range<Integer>(json.get<std::int64_t>());
-  require(is_in_range, "a whole number of its range");
-  number = json.get<Integer>();
+void read(Json json, Integer& number) {
+  std::int64_t whole = 0;
+  std::uint64_t natural = 0;
+  if (json.get(whole) == simdjson::SUCCESS && std::in_range<Integer>(whole)) {
+    number = static_cast<Integer>(whole);
+  } else {
+    require(json.get(natural) == simdjson::SUCCESS && std::in_range<Integer>(natural),
+            "a whole number of its range");
+    number = static_cast<Integer>(natural);
+  }
 }
 template <class Enum>
 requires std::is_enum_v<Enum>
-void read(const Json& json, Enum& value) {
+void read(Json json, Enum& value) {
   const auto& names = names_of(value);
-  std::string text;
+  std::string_view text;
   read(json, text);
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end() || text.empty()) {
@@ -95,20 +117,23 @@ void read(const Json& json, Enum& value) {
   value = static_cast<Enum>(found - names.begin());
 }
 
-void read_array(const Json& list, std::span<double> values) {
-  require(list.is_array() && list.size() == values.size(), "a list of as many numbers as belong");
-  for (std::size_t i = 0; i < values.size(); ++i) read(list[i], values[i]);
+void read_array(Json json, std::span<double> values) {
+  constexpr const char* kWhat = "a list of as many numbers as belong";
+  const JsonList list = list_of(json, kWhat);
+  require(list.size() == values.size(), kWhat);
+  std::size_t i = 0;
+  for (const Json item : list) read(item, values[i++]);
 }
 
-void read(const Json& list, std::vector<Vec2>& points) {
-  require(list.is_array(), "a list of points");
-  points.resize(list.size());
-  for (std::size_t i = 0; i < points.size(); ++i) read_array(list[i], {points[i].data(), 2});
+void read(Json json, std::vector<Vec2>& points) {
+  const JsonList list = list_of(json, "a list of points");
+  points.reserve(list.size());
+  for (const Json item : list) read_array(item, {points.emplace_back().data(), 2});
 }
 
-void read(const Json& list, Form<Outline> outline) {
+void read(Json json, Form<Outline> outline) {
   std::vector<Vec2> points;
-  read(list, points);
+  read(json, points);
   if (std::ssize(points) > Outline::kMost) {
     throw std::runtime_error(fmt::format("has over {} points", Outline::kMost));
   }
@@ -117,8 +142,8 @@ void read(const Json& list, Form<Outline> outline) {
 }
 
 /// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
-void read(const Json& json, Form<sim::Runs> runs) {
-  std::string word;
+void read(Json json, Form<sim::Runs> runs) {
+  std::string_view word;
   read(json, word);
   runs.value.clear();
   try {
@@ -139,46 +164,46 @@ constexpr bool kMayLack<Form<Value>> = true;
 
 /// Reads a member of an object.
 template <class... Out>
-void read_member(const Json& json, const char* key, Out&&... out) {
-  const Json& value = member(json, key);
+void read_member(Json json, const char* key, Out&&... out) {
+  const Json value = member(json, key);
   within(fmt::format(".{}", key), [&] { read(value, std::forward<Out>(out)...); });
 }
-void read_member_array(const Json& json, const char* key, std::span<double> values) {
-  const Json& value = member(json, key);
+void read_member_array(Json json, const char* key, std::span<double> values) {
+  const Json value = member(json, key);
   within(fmt::format(".{}", key), [&] { read_array(value, values); });
 }
 
 template <class Item>
-std::vector<Item> columns_of(const Json& list) {
-  std::vector<const Json*> columns;
+std::vector<Item> columns_of(Json json) {
+  std::vector<std::optional<JsonList>> columns;
   Item item;
   fields(item, [&]<class Value>(const char* name, const Value&) {
-    if (kMayLack<Value> && list.is_object() && !list.contains(name)) {
-      columns.push_back(nullptr);
-      return;
-    }
-    columns.push_back(&member(list, name));
-    within(fmt::format(".{}", name), [&] { require(columns.back()->is_array(), "a list"); });
+    std::optional<JsonList>& column = columns.emplace_back();
+    if (kMayLack<Value> && !find(json, name)) return;
+    const Json list = member(json, name);
+    within(fmt::format(".{}", name), [&] { column = list_of(list); });
   });
-  const std::size_t size = columns.front()->size();
-  for (const Json* column : columns) {
-    if (column != nullptr && column->size() != size) {
+  const JsonList& first = *columns.front();
+  std::vector<JsonList::iterator> cells;  // the next of each column
+  for (const std::optional<JsonList>& column : columns) {
+    if (column && column->size() != first.size()) {
       throw std::runtime_error("has columns that differ in length");
     }
+    cells.push_back(column.value_or(first).begin());
   }
   std::vector<Item> items;
-  items.reserve(size);
-  for (std::size_t row = 0; row < size; ++row) {
+  items.reserve(first.size());
+  for (std::size_t row = 0; row < first.size(); ++row) {
     std::size_t column = 0;
     fields(item, [&](const char* name, auto&& value) {
-      const Json* const of_all = columns[column++];
-      if (of_all == nullptr) return;
-      const Json& cell = (*of_all)[row];
+      const std::size_t place = column++;
+      if (!columns[place]) return;
       try {
-        read(cell, value);
+        read(*cells[place], value);
       } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format(".{}[{}] {}", name, row, error.what()));
       }
+      ++cells[place];
     });
     items.push_back(item);
   }
@@ -186,8 +211,8 @@ std::vector<Item> columns_of(const Json& list) {
 }
 
 template <class Item>
-std::vector<Item> read_columns(const Json& json, const char* key) {
-  const Json& list = member(json, key);
+std::vector<Item> read_columns(Json json, const char* key) {
+  const Json list = member(json, key);
   std::vector<Item> items;
   within(fmt::format(".{}", key), [&] { items = columns_of<Item>(list); });
   return items;
@@ -195,7 +220,7 @@ std::vector<Item> read_columns(const Json& json, const char* key) {
 
 /// Checks that the runs of each mask add up to its box.
 template <class Item>
-std::vector<Item> read_masks(const Json& json, const char* key, bool may_lack) {
+std::vector<Item> read_masks(Json json, const char* key, bool may_lack) {
   std::vector<Item> items = read_columns<Item>(json, key);
   for (const Item& item : items) {
     if (item.mask.empty() && may_lack) continue;
@@ -212,11 +237,11 @@ std::vector<Item> read_masks(const Json& json, const char* key, bool may_lack) {
   return items;
 }
 
-std::vector<sim::ObjectTruth> read_objects(const Json& json) {
+std::vector<sim::ObjectTruth> read_objects(Json json) {
   return read_masks<sim::ObjectTruth>(json, "objects", true);
 }
 
-EgoMotion motion_of(const Json& json) {
+EgoMotion motion_of(Json json) {
   EgoMotion motion;
   Eigen::Matrix3d by_rows;
   read_member(json, "dt_s", motion.dt_s);
@@ -225,11 +250,11 @@ EgoMotion motion_of(const Json& json) {
   read_member_array(json, "v_C_mps", {motion.v_C_mps.data(), 3});
   read_member_array(json, "w_C_radps", {motion.w_C_radps.data(), 3});
   const auto read_known = [&](const char* key, double& value) {
-    if (json.contains(key)) read_member(json, key, value);
+    if (find(json, key)) read_member(json, key, value);
   };
   read_known("unseen_turn_rad", motion.unseen_turn_rad);
   read_known("velocity_sigma_mps", motion.velocity_sigma_mps);
-  if (json.contains("height_m")) {
+  if (find(json, "height_m")) {
     Ground& ground = motion.ground.emplace();
     read_member_array(json, "up_C", {ground.up_C.data(), 3});
     read_member(json, "height_m", ground.height_m);
@@ -237,15 +262,15 @@ EgoMotion motion_of(const Json& json) {
   return motion;
 }
 
-EgoMotion read_motion(const Json& json, const char* key) {
-  const Json& motion = member(json, key);
+EgoMotion read_motion(Json json, const char* key) {
+  const Json motion = member(json, key);
   EgoMotion read;
   within(fmt::format(".{}", key), [&] { read = motion_of(motion); });
   return read;
 }
 
-std::vector<Signature> signatures_of(const Json& json, std::size_t corners) {
-  std::string digits;
+std::vector<Signature> signatures_of(Json json, std::size_t corners) {
+  std::string_view digits;
   read(json, digits);
   require(digits.size() == corners * 2 * sizeof(Signature),
           "64 hexadecimal digits for each corner");
@@ -277,7 +302,7 @@ std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
   return chains;
 }
 
-void read_layers(const Json& json, FrameRecord& frame) {
+void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "index", frame.index);
   read_member(json, "t_ns", frame.t_ns);
   frame.motion = read_motion(json, "told_motion");
@@ -286,9 +311,9 @@ void read_layers(const Json& json, FrameRecord& frame) {
     frame.verdicts.push_back(corner.verdict);
     frame.reasons.push_back(corner.reason);
   }
-  if (json.contains("signatures")) {
+  if (const std::optional<Json> signatures = find(json, "signatures")) {
     within(".signatures",
-           [&] { frame.signatures = signatures_of(json["signatures"], frame.corners_px.size()); });
+           [&] { frame.signatures = signatures_of(*signatures, frame.corners_px.size()); });
   }
   Layers& layers = frame.layers;
   layers.normal_edges = read_columns<Edge>(json, "normal_edges");
@@ -296,11 +321,11 @@ void read_layers(const Json& json, FrameRecord& frame) {
   layers.normal_circles = read_columns<Circle>(json, "normal_circles");
   layers.rebel_circles = read_columns<Circle>(json, "rebel_circles");
   layers.squares = read_columns<Square>(json, "squares");
-  if (json.contains("gaps")) frame.gaps = read_columns<GapSeen>(json, "gaps");
+  if (find(json, "gaps")) frame.gaps = read_columns<GapSeen>(json, "gaps");
   layers.ignored = read_columns<IgnoreRegion>(json, "ignored");
   layers.collectors = read_columns<Collector>(json, "collectors");
   layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));
-  if (json.contains("masks")) {
+  if (find(json, "masks")) {
     for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
       frame.masks[row.square] = {
           cv::Rect(cv::Point(row.left, row.top), cv::Point(row.right, row.bottom)),
@@ -311,41 +336,41 @@ void read_layers(const Json& json, FrameRecord& frame) {
   for (Circle& circle : layers.rebel_circles) circle.rebel = true;
 }
 
-void read_truth(const Json& json, FrameRecord& frame) {
+void read_truth(Json json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
   if (index != frame.index) throw std::runtime_error("index is not that of the layers");
   frame.true_motion = read_motion(json, "true_motion");
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
   frame.object_truth = read_objects(json);
-  if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
+  if (find(json, "labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
 }
 
-void read_detector(const Json& json, DetectorInfo& detector) {
+void read_detector(Json json, DetectorInfo& detector) {
   read_member(json, "detector", detector.name);
   read_member(json, "layered", detector.layered);
   read_member(json, "circles", detector.circles);
 }
 
-void read_header(const Json& json, RunInfo& recording) {
+void read_header(Json json, RunInfo& recording) {
   read_member(json, "scenario", recording.scenario);
   read_member(json, "seed", recording.seed);
-  if (json.contains("detector")) read_detector(json, recording.detector);  // before detector.json
-  if (json.contains("world")) {
-    const Json& world = json.at("world");
+  if (find(json, "detector")) read_detector(json, recording.detector);  // before detector.json
+  if (const std::optional<Json> world = find(json, "world")) {
     within(".world", [&] {
-      require(world.is_object(), "an object");
-      for (const auto& [key, text] : world.items()) read(text, recording.world[key]);
+      simdjson::dom::object texts;
+      require(world->get(texts) == simdjson::SUCCESS, "an object");
+      for (const auto& [key, text] : texts) read(text, recording.world[std::string(key)]);
     });
   }
-  if (json.contains("origin")) {
+  if (const std::optional<Json> told = find(json, "origin")) {
     scenario::Origin& origin = recording.origin.emplace();
     within(".origin", [&] {
-      read_member(json["origin"], "family", origin.family);
-      read_member(json["origin"], "seed", origin.seed);
+      read_member(*told, "family", origin.family);
+      read_member(*told, "seed", origin.seed);
     });
   }
-  if (json.contains("truth")) read_member(json, "truth", recording.truth);
+  if (find(json, "truth")) read_member(json, "truth", recording.truth);
   recording.objects = read_columns<sim::Object>(json, "objects");
 }
 
@@ -358,11 +383,13 @@ constexpr input::FileKind kRecordingFile{64 * input::kGibibyte,
 /// Passes one parsed line after the other to its user, and adds file and line to errors.
 class LineReader {
  public:
-  explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {}
+  explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {
+    if (parser_.allocate(0, kDeepestJson + 1) != simdjson::SUCCESS) throw std::bad_alloc();
+  }
   template <class Use>
   bool next(Use&& use) {
     if (!file_.next_line(text_)) return false;
-    const Json json = parse_json<Json>(text_, file_.here(), kRecordingFile.remedy);
+    const Json json = parsed();
     try {
       use(json);
     } catch (const std::runtime_error& error) {
@@ -377,8 +404,22 @@ class LineReader {
   }
 
  private:
+  /// simdjson names no place of a fault, and reads no integer of more than 64 bits.
+  Json parsed() {
+    Json json;
+    if (parse().get(json) == simdjson::SUCCESS) return json;
+    text_ = parse_json<nlohmann::json>(text_, file_.here(), kRecordingFile.remedy).dump();
+    if (const auto error = parse().get(json)) fail(simdjson::error_message(error));
+    return json;
+  }
+  simdjson::simdjson_result<Json> parse() {
+    text_.reserve(text_.size() + simdjson::SIMDJSON_PADDING);  // or it is copied
+    return parser_.parse(text_);
+  }
+
   input::InputFile file_;
   std::string text_;
+  simdjson::dom::parser parser_;
 };
 
 namespace {
@@ -386,7 +427,7 @@ namespace {
 void read_detector_of(const std::filesystem::path& folder, RunInfo& recording) {
   if (!std::filesystem::exists(folder / kDetectorFile)) return;
   LineReader file(folder / kDetectorFile);
-  if (!file.next([&](const Json& json) { read_detector(json, recording.detector); })) {
+  if (!file.next([&](Json json) { read_detector(json, recording.detector); })) {
     file.fail("is empty");
   }
 }
@@ -407,12 +448,12 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
     : layers_(std::make_unique<LineReader>(stored(folder, kLayersFile))),
       truth_(std::make_unique<LineReader>(stored(folder, kTruthFile))) {
   input::note_input(folder);
-  if (!truth_->next([&](const Json& json) { read_header(json, run_); })) truth_->fail("is empty");
+  if (!truth_->next([&](Json json) { read_header(json, run_); })) truth_->fail("is empty");
   read_detector_of(folder, run_);
   run_.warnings = world_warnings(folder);
   if (!std::filesystem::exists(folder / kCameraFile)) return;
   LineReader file(folder / kCameraFile);
-  const bool is_there = file.next([&](const Json& json) {
+  const bool is_there = file.next([&](Json json) {
     Intrinsics& camera = run_.camera.emplace();
     read_member(json, "focal_px", camera.focal_px);
     read_member_array(json, "centre_px", {camera.centre_px.data(), 2});
@@ -429,11 +470,11 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
 
 bool RecordingReader::next(FrameRecord& frame) {
   frame = {};
-  if (!layers_->next([&](const Json& json) { read_layers(json, frame); })) {
-    if (truth_->next([](const Json&) {})) layers_->fail("ends before the truth does");
+  if (!layers_->next([&](Json json) { read_layers(json, frame); })) {
+    if (truth_->next([](Json) {})) layers_->fail("ends before the truth does");
     return false;
   }
-  if (!truth_->next([&](const Json& json) { read_truth(json, frame); })) {
+  if (!truth_->next([&](Json json) { read_truth(json, frame); })) {
     truth_->fail("ends before the layers do");
   }
   return true;
@@ -457,7 +498,7 @@ Recording read_recording(const std::filesystem::path& folder) {
 RunInfo read_run_info(const std::filesystem::path& folder) {
   RunInfo run;
   LineReader truth(stored(folder, kTruthFile));
-  if (!truth.next([&](const Json& json) { read_header(json, run); })) truth.fail("is empty");
+  if (!truth.next([&](Json json) { read_header(json, run); })) truth.fail("is empty");
   read_detector_of(folder, run);
   return run;
 }
@@ -467,8 +508,7 @@ SeenReader::SeenReader(SeenReader&&) noexcept = default;
 
 SeenReader::SeenReader(const std::filesystem::path& file)
     : lines_(std::make_unique<LineReader>(file)) {
-  if (!lines_->next(
-          [&](const Json& json) { objects_ = read_columns<sim::Object>(json, "objects"); })) {
+  if (!lines_->next([&](Json json) { objects_ = read_columns<sim::Object>(json, "objects"); })) {
     lines_->fail("is empty");
   }
 }
@@ -476,7 +516,7 @@ SeenReader::SeenReader(const std::filesystem::path& file)
 const FrameRecord* SeenReader::at(std::int64_t t_ns) {
   while (!frame_ || frame_->t_ns < t_ns) {
     FrameRecord frame;
-    const bool is_there = lines_->next([&](const Json& json) {
+    const bool is_there = lines_->next([&](Json json) {
       read_member(json, "index", frame.index);
       read_member(json, "t_ns", frame.t_ns);
       for (const Place& place : read_columns<Place>(json, "corners")) {
@@ -508,8 +548,7 @@ std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesyst
       continue;
     }
     while (next < frame && truth.skip()) ++next;
-    const bool is_there =
-        truth.next([&](const Json& json) { objects.push_back(read_objects(json)); });
+    const bool is_there = truth.next([&](Json json) { objects.push_back(read_objects(json)); });
     if (!is_there) truth.fail(fmt::format("ends before frame {}", frame));
     ++next;
   }
