@@ -43,6 +43,7 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, co
   try {
     if (::fstat(descriptor_, &status) != 0) fail(errno);
     check(status);
+    if (is_gzip_) buffer_.reserve(static_cast<std::size_t>(status.st_size) + kBlock);
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -111,20 +112,19 @@ bool InputFile::decompress() {
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> gzip(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
   if (!gzip) throw std::bad_alloc();
-  const std::size_t before = buffer_.size();
   std::size_t taken = 0, given = 0;
-  for (std::size_t room = 4 * kMebibyte;; room *= 2) {
-    buffer_.resize(before + room);
+  for (;; room_ *= 2, member_.reset()) {
+    if (!member_) member_ = std::make_unique_for_overwrite<char[]>(room_);
     const libdeflate_result result = libdeflate_gzip_decompress_ex(
         gzip.get(), compressed_.data() + decompressed_, compressed_.size() - decompressed_,
-        buffer_.data() + before, room, &taken, &given);
+        member_.get(), room_, &taken, &given);
     if (result == LIBDEFLATE_SUCCESS) break;
     if (result != LIBDEFLATE_INSUFFICIENT_SPACE) {
       fail("this is no whole gzip file", kind_.remedy);
     }
-    check_size(read_ + room);
+    check_size(read_ + room_);
   }
-  buffer_.resize(before + given);
+  buffer_.append(member_.get(), given);
   decompressed_ += taken;
   read_ += given;
   check_size(read_);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -65,8 +66,10 @@ class InputFile {
   int line_ = 0;
   std::uint64_t read_ = 0;
   bool is_gzip_ = false;
-  std::string compressed_;        ///< a gzip file's bytes, once they are read
-  std::size_t decompressed_ = 0;  ///< number of these bytes used
+  std::string compressed_;          ///< a gzip file's bytes, once they are read
+  std::size_t decompressed_ = 0;    ///< number of these bytes used
+  std::unique_ptr<char[]> member_;  ///< room for a member, which need not be zeroed
+  std::size_t room_ = 4 * kMebibyte;
   std::string buffer_;
   std::size_t used_ = 0;  ///< bytes of the buffer already returned
 };
