@@ -70,7 +70,12 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   RecordingReader reader(folder);
   info_ = reader.run();
   info_.detector = {};
-  while (reader.skip()) ++frames_;
+  frames_ = reader.count_left();
+  if (frames_ != scenario.frames) {  // a file that is cut off is told by its name
+    RecordingReader both(folder);
+    while (both.skip()) {
+    }
+  }
   require_same(folder, info_, frames_, scenario);
   if (!info_.origin) info_.origin = scenario.origin;
   const fs::path pictures = folder / kPicturesFile;
@@ -92,23 +97,26 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
 }
 
 RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int threads) {
+  RecordingReader reader(folder_);
+  std::size_t k = 0;
+  const auto make = [&]() -> std::optional<SeenFrame> {
+    FrameRecord recorded;
+    if (!reader.next(recorded)) return std::nullopt;
+    lacks_signatures_ |= recorded.signatures.size() < recorded.corners_px.size();
+    lacks_gaps_ |= !recorded.gaps;
+    return SeenFrame{
+        without_detections(std::move(recorded)), with_images ? image(k++) : cv::Mat3b{}, {}};
+  };
+  const auto work = [&](const SeenFrame& seen) {
+    for (const Watcher& watcher : watchers) {
+      FrameRecord frame = seen.record;
+      ask(watcher.detector, seen.image, {}, frame);
+      watcher.sink(frame, seen.image);
+    }
+  };
+  for_each_frame(make, work, threads);
   RunEnd end{.diagnostics = {}, .warnings = info_.warnings};
   for (const Watcher& watcher : watchers) {
-    RecordingReader reader(folder_);
-    std::size_t k = 0;
-    const auto make = [&]() -> std::optional<SeenFrame> {
-      FrameRecord recorded;
-      if (!reader.next(recorded)) return std::nullopt;
-      lacks_signatures_ |= recorded.signatures.size() < recorded.corners_px.size();
-      lacks_gaps_ |= !recorded.gaps;
-      return SeenFrame{
-          without_detections(std::move(recorded)), with_images ? image(k++) : cv::Mat3b{}, {}};
-    };
-    const auto work = [&](SeenFrame& seen) {
-      ask(watcher.detector, seen.image, {}, seen.record);
-      watcher.sink(seen.record, seen.image);
-    };
-    for_each_frame(make, work, threads);
     watcher.detector.finish();
     end.diagnostics.push_back(watcher.detector.diagnostics());
   }

@@ -36,7 +36,7 @@ class EarlierRun {
   /// comparator. The filter then finds no bodies that approach at constant speed.
   bool lacks_gaps() const { return lacks_gaps_; }
 
-  /// Processes all frames for one watcher after another, like `bench::run`.
+  /// Processes all frames like `bench::run`.
   /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
   ///   with losses of compression. Else the pictures are empty.
   /// \param threads as of `bench::run`.

@@ -39,7 +39,7 @@ void PicturesWriter::write(const cv::Mat3b& image) {
 constexpr input::FileKind kMotionJpeg{16 * input::kGibibyte, kRecordAgain};
 
 FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_px)
-    : file_(file, kMotionJpeg), scale_(kept_scale(image_px.width)) {
+    : path_(file), file_(file, kMotionJpeg), scale_(kept_scale(image_px.width)) {
   constexpr std::size_t kBlock = 1 << 16;
   const cv::Size2l expected(cvRound(image_px.width * scale_), cvRound(image_px.height * scale_));
   const auto fail = [&](const std::string& what) {
@@ -71,12 +71,8 @@ FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_p
   }
 }
 
-void FramePictures::copy_to(const std::filesystem::path& file) const {
-  OutputFile copy(file);
-  for (std::size_t i = 0; i < size(); ++i) {
-    copy.write(file_.bytes_at(starts_[i], starts_[i + 1] - starts_[i]));
-  }
-  copy.close();
+void FramePictures::share(const std::filesystem::path& file) const {
+  link_or_copy(path_, file);
 }
 
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {

@@ -42,10 +42,12 @@ class FramePictures {
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return starts_.size() - 1; }
 
-  /// \throws input::Error, OutputError
-  void copy_to(const std::filesystem::path& file) const;
+  /// Makes `file` the same file, or a copy on another file system.
+  /// \throws std::filesystem::filesystem_error
+  void share(const std::filesystem::path& file) const;
 
  private:
+  std::filesystem::path path_;
   input::InputFile file_;
   std::vector<std::uint64_t> starts_{0};  ///< of each picture in the file, then the file's end
   double scale_;

@@ -110,6 +110,8 @@ class RecordingReader {
   bool next(FrameRecord& frame);
   /// As `next`, without parsing the frame.
   bool skip();
+  /// The number of frames that are left, by the truth; none can be read afterwards.
+  int count_left();
 
  private:
   RunInfo run_;

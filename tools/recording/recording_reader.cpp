@@ -488,6 +488,12 @@ bool RecordingReader::skip() {
   return is_there;
 }
 
+int RecordingReader::count_left() {
+  int frames = 0;
+  while (truth_->skip()) ++frames;
+  return frames;
+}
+
 Recording read_recording(const std::filesystem::path& folder) {
   RecordingReader reader(folder);
   Recording recording{reader.run(), {}};
