@@ -9,7 +9,6 @@
 #include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {
-
 Keep keep_of(const std::string& word) {
   const auto found = std::ranges::find(kKeepWords, word);
   if (found == kKeepWords.end()) {
@@ -53,7 +52,10 @@ Result::Result(const std::filesystem::path& target, const RunInfo& run, cv::Size
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
   const FrameScore score = scorer_.add(frame);
   if (rows_) rows_->write(frame, score.rebels);
-  if (events_) events_->add(frame, score.outcomes);
+  if (events_) {
+    events_->add(frame, score.outcomes);
+    if (held_.size() < kMostHeld) held_.push_back(frame);
+  }
   if (writer_) writer_->write(frame);
   if (video_ || show_) {
     const cv::Mat3b sheet = painter_.paint(frame, image);
@@ -79,13 +81,18 @@ void Result::write_events_file() {
   const EventSums sums = sums_of(events);
   keep_worst(events, kMostEvents);
   if (pictures && pictures->size() > 0) {
-    RecordingReader frames(folder);
+    std::optional<RecordingReader> frames;
     int next = 0;
     for (const int shown : frames_shown(events)) {
-      for (; next < shown; ++next) frames.skip();
       FrameRecord frame;
-      frames.next(frame);
-      ++next;
+      if (static_cast<std::size_t>(shown) < held_.size()) {
+        frame = std::move(held_[static_cast<std::size_t>(shown)]);
+      } else {
+        if (!frames) frames.emplace(folder);
+        for (; next < shown; ++next) frames->skip();
+        frames->next(frame);
+        ++next;
+      }
       paint_views(frame, corner_outcomes(frame, scorer_.detections()), *pictures, events);
     }
     if (keep_ == Keep::all && kept_) kept_->share(folder / kPicturesFile);

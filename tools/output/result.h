@@ -59,6 +59,10 @@ struct ResultOptions {
   std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
 };
 
+/// The first frames of a run with events stay in memory, about 0.2 MB each, until their events are
+/// painted. Later ones are read back.
+inline constexpr std::size_t kMostHeld = 200;
+
 class Result {
  public:
   /// \param run whose frames will be added.
@@ -66,7 +70,7 @@ class Result {
   Result(const std::filesystem::path& target, const RunInfo& run, cv::Size image_px,
          const ResultOptions& options);
 
-  /// Scores the frame and writes what belongs to it; nothing of it is kept but numbers.
+  /// Scores the frame and writes its rows. Of a frame beyond `kMostHeld`, only numbers are kept.
   /// \param image may be empty if no video is made or shown.
   /// \throws OutputError; std::invalid_argument as `Scorer::add`.
   void add(const FrameRecord& frame, const cv::Mat3b& image);
@@ -100,6 +104,7 @@ class Result {
   std::optional<Video> video_;
   decltype(ResultOptions::show) show_;
   std::optional<EventFinder> events_;
+  std::vector<FrameRecord> held_;  ///< the first frames, if there are events
   const FramePictures* kept_;
   std::optional<PicturesWriter> own_pictures_;
   decltype(ResultOptions::add_page) add_page_;
