@@ -1,7 +1,7 @@
 // Every file is opened by tools/input/input_file.h, every picture decoded by
 // sim/pictures/picture_file.h, every video opened by tools/output/video_reader.h and all JSON
-// parsed by tools/files/json_node.h, so that their limits apply to all input. No other code opens a
-// file.
+// parsed by tools/files/json_node.h or the reader of recordings, so that their limits apply to all
+// input. No other code opens a file.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,8 +34,8 @@ const std::map<std::string, std::set<std::string>> kWays{
       "tools/tune/journal.cpp"}},     // to append
     {R"(imread|imdecode)",
      {"sim/pictures/media.h", "sim/pictures/media_module.cpp",  // what the others call
-      "sim/pictures/picture_file.cpp", "sim/pictures/picture_file.h",
-      "sim/camera/photograph.cpp"}},  // its own bytes
+      "sim/pictures/picture_file.cpp", "sim/pictures/picture_file.h"}},
+    {R"(tjDecompress)", {"sim/pictures/picture_file.cpp"}},
     {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/pictures/media.h", "sim/pictures/media_module.cpp"}},
     {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
     {R"(avformat_open|media\(\)\.video_times)",
@@ -44,6 +44,7 @@ const std::map<std::string, std::set<std::string>> kWays{
     {R"(LoadFile|mj_loadModel|mj_loadXML|mj_parse\b|mj_parseXML\b)", {}},
     {R"(mj_parseXMLString)", {"sim/scene/spec.cpp"}},  // text in memory
     {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},
+    {R"(simdjson::(dom|ondemand)::parser)", {"tools/recording/recording_reader.cpp"}},
 };
 
 /// Code without comments, because comments may name forbidden calls.

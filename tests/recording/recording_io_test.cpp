@@ -62,6 +62,8 @@ class Filler {
         return -std::numeric_limits<double>::max();
       case 4:
         return 1e5;
+      case 5:
+        return 123456789012345680000.0;  // written as an integer of more than 64 bits
       default: {
         const double number = std::bit_cast<double>(random_());
         return std::isfinite(number) ? number : 1.0 / 3;

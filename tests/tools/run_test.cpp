@@ -345,6 +345,11 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
   EXPECT_FALSE(file("first", kLayersFile) == file("live", kLayersFile))
       << "the setting does not show";
   expect_same("live", "again");
+  for (const char* shared : {kTruthFile, kPicturesFile}) {
+    EXPECT_TRUE(
+        fs::equivalent(folder_.path() / "first" / shared, folder_.path() / "again" / shared))
+        << shared << " takes its room once";
+  }
   // Skipped stages took no time.
   const nlohmann::json times = metrics("again");
   EXPECT_TRUE(times["time.filter_ms_median"].is_number());
