@@ -12,8 +12,8 @@ preset=release  # or ci, in the same folder
 packages=(
   g++ cmake ninja-build pkg-config
   libosmesa6 libegl1 libopencv-dev libavformat-dev libeigen3-dev
-  libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libsimdjson-dev libfmt-dev libgtest-dev
-  libdeflate-dev libturbojpeg0-dev libnlopt-cxx-dev libssl-dev
+  libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
+  libdeflate-dev libsimdjson-dev libturbojpeg0-dev libnlopt-cxx-dev libssl-dev
   pybind11-dev python3-dev python3-numpy ccache
 )
 
