@@ -243,7 +243,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     one.info.detector = {one.spec.name, one.spec.detector.layered, one.detector->gives_circles()};
     one.info.camera = frames.camera;
   }
-  // The frames of a recording keep their truth: its file serves again in the same form.
+  // The frames of a recording keep their truth: its file is copied if its form stays.
   const bool is_truth_there =
       !request.recorded.empty() &&
       request.gzip == (bench::stored(request.recorded, bench::kTruthFile).extension() == ".gz");
@@ -251,7 +251,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     bench::ResultOptions what;
     what.keep = request.keep;
     what.compressed = request.gzip;
-    what.is_truth_shared = &one != &own || is_truth_there;
+    what.is_truth_copied = &one != &own || is_truth_there;
     if (&one == &own) {
       if (!request.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
       if (request.view) what.show = request.view(scenario);
@@ -265,7 +265,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     }
     one.result = std::make_unique<bench::Result>(
         one.target, one.info, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
-    if (&one == &own && is_truth_there) one.result->share_truth(request.recorded);
+    if (&one == &own && is_truth_there) one.result->copy_truth(request.recorded);
   }
   caller.warn(scenario::shadowed_files(scenario));
   caller.warn(own.settings_without_effect);
@@ -293,7 +293,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
     metrics.push_back(one.result->finish(end.warnings));
-    if (&one != &own) one.result->share_truth(own.result->output().staging());
+    if (&one != &own) one.result->copy_truth(own.result->output().staging());
     write_how_made(request, scenario, frames, one, &one == &own);
     outputs.push_back(&one.result->output());
   }

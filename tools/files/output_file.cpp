@@ -100,7 +100,7 @@ void TextFile::close() {
 
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::error_code error;
-  std::filesystem::create_hard_link(std::filesystem::canonical(from), to, error);
+  std::filesystem::create_hard_link(from, to, error);
   if (error) std::filesystem::copy_file(from, to);
 }
 

@@ -71,8 +71,8 @@ FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_p
   }
 }
 
-void FramePictures::share(const std::filesystem::path& file) const {
-  link_or_copy(path_, file);
+void FramePictures::copy_to(const std::filesystem::path& file) const {
+  std::filesystem::copy_file(path_, file);
 }
 
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {

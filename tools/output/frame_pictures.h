@@ -42,9 +42,8 @@ class FramePictures {
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return starts_.size() - 1; }
 
-  /// Makes `file` the same file, or a copy on another file system.
   /// \throws std::filesystem::filesystem_error
-  void share(const std::filesystem::path& file) const;
+  void copy_to(const std::filesystem::path& file) const;
 
  private:
   std::filesystem::path path_;

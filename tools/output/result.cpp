@@ -42,7 +42,7 @@ Result::Result(const std::filesystem::path& target, const RunInfo& run, cv::Size
   if (keep_ != Keep::figures) rows_.emplace(folder / kFramesFile, run);
   if (options.events) events_.emplace(run);
   if (keep_ == Keep::all || events_) {  // the events' pictures are painted from them at the end
-    writer_.emplace(folder, run, options.compressed, !options.is_truth_shared);
+    writer_.emplace(folder, run, options.compressed, !options.is_truth_copied);
   }
   if (options.video_frames_per_second) {
     video_.emplace(folder / kVideoFile, painter_.size_px(), *options.video_frames_per_second);
@@ -95,7 +95,7 @@ void Result::write_events_file() {
       }
       paint_views(frame, corner_outcomes(frame, scorer_.detections()), *pictures, events);
     }
-    if (keep_ == Keep::all && kept_) kept_->share(folder / kPicturesFile);
+    if (keep_ == Keep::all && kept_) kept_->copy_to(folder / kPicturesFile);
   }
   write_events(folder / kEventsFile, events, sums);
   if (keep_ == Keep::all) return;
@@ -120,10 +120,10 @@ Metrics Result::finish(const std::optional<sim::Warnings>& world) {
   return metrics;
 }
 
-void Result::share_truth(const std::filesystem::path& folder) {
+void Result::copy_truth(const std::filesystem::path& folder) {
   if (!writer_) return;
   const std::filesystem::path theirs = stored(folder, kTruthFile);
-  link_or_copy(theirs, folder_.staging() / theirs.filename());
+  std::filesystem::copy_file(theirs, folder_.staging() / theirs.filename());
 }
 
 }  // namespace lcs::bench
