@@ -57,7 +57,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       sigma = edge.depth_ratio_sigma / field.reference_depth_m();
       reach_px_.push_back(parameters_.gap_m * value.x() * camera_.focal_px);
     }
-    const double deviation = std::hypot(sigma, parameters_.roughness * value.norm());
+    const double deviation = Vec2(sigma, parameters_.roughness * value.norm()).norm();
     sums_.emplace_back(h, value, deviation);
     // Parts of a near body that overtakes have unlike velocities; only depths are compared.
     depths_.push_back(value.x());
@@ -145,8 +145,9 @@ bool MotionGroups::is_refused(int a, int b) const {
 void MotionGroups::merge(std::vector<Couple>& links, float most) {
   sorter_.sort(links, most);
   for (const Couple& link : links) {
+    if (sets_.are_together(link.a, link.b)) continue;
     const int a = sets_.root(link.a), b = sets_.root(link.b);
-    if (a == b || is_refused(a, b) || is_refused(b, a)) continue;
+    if (is_refused(a, b) || is_refused(b, a)) continue;
     PlaneSums both = sums_[a];
     both += sums_[b];
     const double scale = both.magnitude();
@@ -176,7 +177,7 @@ void MotionGroups::merge() {
   // Most links lie within a group that the short ones make, and need not be sorted.
   merge(short_links_, kShort);
   std::erase_if(long_links_,
-                [&](const Couple& link) { return sets_.root(link.a) == sets_.root(link.b); });
+                [&](const Couple& link) { return sets_.are_together(link.a, link.b); });
   merge(long_links_, static_cast<float>(0.5 * kFar * kFar));
 }
 

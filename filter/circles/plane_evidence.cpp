@@ -21,13 +21,21 @@ PlaneSums& PlaneSums::operator+=(const PlaneSums& other) {
 }
 
 double PlaneSums::evidence(const PlanePrior& prior, int values) const {
+  return values == 1 ? evidence_of<1>(prior) : evidence_of<2>(prior);
+}
+
+template <int kValues>
+double PlaneSums::evidence_of(const PlanePrior& prior) const {
+  using Coefficients = Eigen::Matrix<double, 3, kValues>;
+  const Coefficients products = products_.leftCols<kValues>(),
+                     mean = prior.mean.leftCols<kValues>();
   // Relative to the prior mean and to the centroid of the places, where the level's prior holds.
   // There level and slopes are uncorrelated.
   const double count = squares_(0, 0);
   const Vec2 middle = squares_.block<2, 1>(1, 0) / count;
-  const PlaneCoefficients left = products_ - squares_ * prior.mean;
-  const double left2 = values2_ - (prior.mean.array() * (products_ + left).array()).sum();
-  const Eigen::Matrix2d T = left.bottomRows<2>() - middle * left.row(0);
+  const Coefficients left = products - squares_ * mean;
+  const double left2 = values2_ - (mean.array() * (products + left).array()).sum();
+  const Eigen::Matrix<double, 2, kValues> T = left.template bottomRows<2>() - middle * left.row(0);
   const double level_P = 1 / (prior.level_sigma * prior.level_sigma);
   const double slope_P = 1 / (prior.slope_sigma * prior.slope_sigma);
   Eigen::Matrix2d A = squares_.bottomRightCorner<2, 2>() - count * middle * middle.transpose();
@@ -36,7 +44,7 @@ double PlaneSums::evidence(const PlanePrior& prior, int values) const {
   const double explained =
       left.row(0).squaredNorm() / level_A + (T.array() * (A.inverse() * T).array()).sum();
   return -0.5 * (left2 - explained) -
-         0.5 * values * std::log(level_A * A.determinant() / (level_P * slope_P * slope_P));
+         0.5 * kValues * std::log(level_A * A.determinant() / (level_P * slope_P * slope_P));
 }
 
 }  // namespace lcs

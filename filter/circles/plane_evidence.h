@@ -39,6 +39,9 @@ class PlaneSums {
   double evidence(const PlanePrior& prior, int values) const;
 
  private:
+  template <int kValues>
+  double evidence_of(const PlanePrior& prior) const;
+
   Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();       // sum of q (1, h) (1, h)^T
   PlaneCoefficients products_ = PlaneCoefficients::Zero();  // sum of q (1, h) y^T
   double values2_ = 0;                                      // sum of q |y|^2

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
@@ -20,7 +19,7 @@ ExpectedTrack::Share share_of(const Vec2& at_px, const Eigen::Matrix2d& covarian
           precision(0, 0),
           precision(0, 1),
           precision(1, 1),
-          static_cast<float>(std::log(share / (2 * kPi * std::sqrt(covariance.determinant()))))};
+          static_cast<float>(share / (2 * kPi * std::sqrt(covariance.determinant())))};
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
                    (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
                    (1 - wrong) * moves);
     } else {
-      moving.ln_most = -std::numeric_limits<float>::infinity();
+      moving.most_ppx2 = 0;
       anywhere_ppx2 += (1 - wrong) * moves * anywhere;
     }
     const Eigen::Vector2f place_px = track.place_px.cast<float>();
@@ -90,9 +89,11 @@ void Association::Sought::clear() {
 
 void Association::Sought::build(std::span<const Track> predicted, double cell_px) {
   grid.build(places, cell_px);
+  refill(track_at, places.size());
   refill(signatures, places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    signatures[i] = predicted[tracks[grid.index_at(i)]].signature;
+    track_at[i] = tracks[grid.index_at(i)];
+    signatures[i] = predicted[track_at[i]].signature;
   }
 }
 
@@ -129,7 +130,7 @@ bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signatu
   }
   for (std::size_t i = 0; i < count; ++i) {
     const int place = signature != nullptr ? alike_[i].place : near_.places[i];
-    which_[i] = sought.tracks[sought.grid.index_at(static_cast<std::size_t>(place))];
+    which_[i] = sought.track_at[place];
   }
   const Eigen::Vector2f x = x_px.cast<float>();
   loops().densities(expected_.data(), which_.data(), count, x.x(), x.y(), ln_density_.data(),

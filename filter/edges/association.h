@@ -68,8 +68,10 @@ class Association {
   struct Sought {
     PointGrid grid;
     std::vector<Vec2> places;
-    std::vector<int> tracks;            // of the places
-    std::vector<Signature> signatures;  // in the order of the grid
+    std::vector<int> tracks;  // of the places
+    // In the order of the grid:
+    std::vector<int> track_at;
+    std::vector<Signature> signatures;
     double reach_px = 0;
 
     void clear();

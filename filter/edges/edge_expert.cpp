@@ -293,9 +293,15 @@ bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
     const Track& before = tracks_[track_of[c]];
     if (!before.has_motion()) continue;
     const StaticPoint& told = predicted_[track_of[c]].as_static;
-    const StaticPoint other = before.as_static.predicted(camera_, field, parameters_.ego_share);
-    const Eigen::Matrix2d S = told.spread(noise2_px2_) + other.spread(noise2_px2_);
-    if (!(distance2(told.place_px - other.place_px, S) > kFar * kFar)) continue;
+    StaticPoint other;
+    other.move(before.as_static, camera_, field);
+    // Most tracks do not tell the motions apart, as the told prediction alone is uncertain enough.
+    Eigen::Matrix2d S = told.spread(noise2_px2_);
+    const Vec2 apart_px = told.place_px - other.place_px;
+    if (!(distance2(apart_px, S) > kFar * kFar)) continue;
+    other = before.as_static.predicted(camera_, field, parameters_.ego_share);
+    S += other.spread(noise2_px2_);
+    if (!(distance2(apart_px, S) > kFar * kFar)) continue;
     const Vec2& x = chi.locations[c];
     const double voice = (1 - chance(before.belief)) / association_.crowd(c);
     ++count;

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,6 +22,7 @@ class Neighbourhood {
     count_ = std::min(static_cast<std::size_t>(count), others);
     make_room(nearest_, points.size() * static_cast<std::size_t>(count));
     nearest_.resize(points.size() * count_);
+    refill_column(ranks_, points.size());
     if (count_ == 0) return;
     double radius_px = grid_.crowd_radius(points[grid_.index_at(0)], count);
     for (std::size_t place = 0; place < points.size(); ++place) {
@@ -33,21 +32,22 @@ class Neighbourhood {
       if (place > 0) radius_px = 1.2 * reach_px(grid_.index_at(place - 1));
       std::size_t near = grid_.find_within(x, radius_px, near_);
       for (; near <= count_; near = grid_.find_within(x, radius_px, near_)) radius_px *= 1.4;
-      keys_.clear();
+      const auto self =
+          std::find(near_.places.begin(), near_.places.end(), static_cast<int>(place));
+      near_.distance2_px2[static_cast<std::size_t>(self - near_.places.begin())] = -1;  // the least
+      loops().ranks(near_.distance2_px2.data(), near, ranks_.data());
+      Neighbour* const nearest = &nearest_[static_cast<std::size_t>(here) * count_];
       for (std::size_t k = 0; k < near; ++k) {
-        const auto other = static_cast<std::size_t>(near_.places[k]);
-        if (other != place) insert(key(near_.distance2_px2[k], grid_.index_at(other)));
-      }
-      Neighbour* next = &nearest_[static_cast<std::size_t>(here) * count_];
-      for (const std::uint64_t key : keys_) {
-        *next++ = {std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)),
-                   static_cast<int>(key & 0xffffffff)};
+        const auto rank = static_cast<std::size_t>(ranks_[k]);
+        if (rank == 0 || rank > count_) continue;
+        nearest[rank - 1] = {near_.distance2_px2[k],
+                             grid_.index_at(static_cast<std::size_t>(near_.places[k]))};
       }
     }
   }
 
   const PointGrid& grid() const { return grid_; }
-  /// The neighbours of a point, nearest first.
+  /// The neighbours of a point, nearest first; equally near ones in the order of the grid.
   std::span<const Neighbour> of(std::size_t point) const {
     return {nearest_.data() + point * count_, count_};
   }
@@ -59,28 +59,9 @@ class Neighbourhood {
   }
 
  private:
-  /// A number that rises with the distance, then with the index: the bits of floats that are not
-  /// negative have the floats' order.
-  static std::uint64_t key(float distance2_px2, int index) {
-    return std::uint64_t{std::bit_cast<std::uint32_t>(distance2_px2)} << 32 |
-           static_cast<std::uint32_t>(index);
-  }
-
-  /// Inserts a key into the sorted list of the `count_` least ones.
-  void insert(std::uint64_t key) {
-    if (keys_.size() < count_) {
-      keys_.push_back(key);
-    } else if (key >= keys_.back()) {
-      return;
-    }
-    std::uint64_t* place = &keys_.back();
-    for (; place > keys_.data() && key < place[-1]; --place) *place = place[-1];
-    *place = key;
-  }
-
   PointGrid grid_;
   PointGrid::Found near_;
-  std::vector<std::uint64_t> keys_;
+  std::vector<int> ranks_;          // of these
   std::vector<Neighbour> nearest_;  // `count_` of each point
   std::size_t count_ = 0;
 };

@@ -20,7 +20,7 @@ double mass(double mean, double variance, const DepthBounds& bounds) {
   const double sigma = std::sqrt(variance);
   // Infinite depth (w = 0) is a sharp bound, the ground an uncertain one.
   const double least = std::max(
-      -mean / sigma, (bounds.ground_pm - mean) / std::hypot(sigma, bounds.ground_sigma_pm));
+      -mean / sigma, (bounds.ground_pm - mean) / Vec2(sigma, bounds.ground_sigma_pm).norm());
   return std::max(1e-12, below((bounds.most_pm - mean) / sigma) - below(least));
 }
 
@@ -52,7 +52,8 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   if (!ground || *ground <= 0) return bounds;
   bounds.ground_pm = *ground / field.reference_depth_m();
   bounds.ground_sigma_pm =
-      std::hypot(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm);
+      Vec2(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm)
+          .norm();
   bounds.least_pm =
       std::clamp(bounds.ground_pm - kFarBelow * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
   return bounds;

@@ -25,6 +25,8 @@ class DisjointSets {
     return i;
   }
 
+  bool are_together(int i, int j) { return parent_[i] == parent_[j] || root(i) == root(j); }
+
   /// Merges both sets; the root of `into` remains the root.
   void join(int into, int other) { parent_[root(other)] = root(into); }
 

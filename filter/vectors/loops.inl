@@ -163,6 +163,24 @@ std::size_t count_within(const float* x_px, const float* y_px, std::size_t first
   return static_cast<std::size_t>(count);
 }
 
+void ranks(const float* values, std::size_t count, int* places) {
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t end = first + kLanes < count ? first + kLanes : count;
+    const Floats own = load(values + first);
+    Ints lower = {};
+    std::size_t k = 0;
+#pragma GCC unroll 8
+    for (; k < first; ++k) lower -= values[k] <= own;
+    for (; k < end; ++k) {
+      const auto lane = static_cast<std::int32_t>(k - first);
+      lower -= (values[k] < own) | ((values[k] == own) & (lane < kLane));
+    }
+#pragma GCC unroll 8
+    for (; k < count; ++k) lower -= values[k] < own;
+    __builtin_memcpy(places + first, &lower, sizeof lower);
+  }
+}
+
 std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, std::size_t first,
                  std::size_t last, std::uint32_t* starts, float* weights) {
   const float x = nodes.x_px[node], y = nodes.y_px[node];
@@ -422,14 +440,14 @@ void densities(const ExpectedTrack* tracks, const int* which, std::size_t count,
     const Floats still = ln_off_of(tracks->still, indices, x_px, y_px);
     const Floats moving = ln_off_of(tracks->moving, indices, x_px, y_px);
     store(larger(still, moving), ln_off + i);
-    store(log_of(exp_of(still + gather(&tracks->still.ln_most, indices)) +
-                 exp_of(moving + gather(&tracks->moving.ln_most, indices)) +
+    store(log_of(gather(&tracks->still.most_ppx2, indices) * exp_of(still) +
+                 gather(&tracks->moving.most_ppx2, indices) * exp_of(moving) +
                  gather(&tracks->anywhere_ppx2, indices)),
           ln_density + i);
   }
 }
 
-constexpr Loops kLoops = {within,    count_within, ties,        tied_sums, links, exponentials,
-                          half_tanh, votes,        normal_sums, densities, alike};
+constexpr Loops kLoops = {within,       count_within, ranks, ties,        tied_sums, links,
+                          exponentials, half_tanh,    votes, normal_sums, densities, alike};
 
 }  // namespace

@@ -53,7 +53,7 @@ struct ExpectedTrack {
   struct Share {
     float x_px, y_px;
     float P_xx, P_xy, P_yy;  ///< precision, 1/px^2
-    float ln_most;           ///< ln of the largest density; -infinity for none
+    float most_ppx2;         ///< the largest density; 0 for none
   };
   float x_px, y_px;  ///< its rotated place
   Share still, moving;
@@ -96,6 +96,9 @@ struct Loops {
                         float* distance2_px2);
   std::size_t (*count_within)(const float* x_px, const float* y_px, std::size_t first,
                               std::size_t last, float x0_px, float y0_px, float radius2_px2);
+  /// The place of each value among all, from 0 for the least; equal values keep their order.
+  /// \param values, places padded.
+  void (*ranks)(const float* values, std::size_t count, int* places);
   /// Finds the nodes of a range that are tied to a node, in blocks of `kLanes` nodes.
   /// \param starts room for all blocks: the first node of each. \param weights of their nodes.
   /// \return how many blocks have a tie.

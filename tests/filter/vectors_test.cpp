@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,6 +57,24 @@ TEST(Loops, FindAndCountThePointsOfARangeWithinARadius) {
         EXPECT_EQ(found, expected);
         EXPECT_EQ(distance2, distances);
         EXPECT_EQ(way->count_within(x.data(), y.data(), first, last, 40, 60, radius2), count);
+      }
+    }
+  }
+}
+
+TEST(Loops, RanksAreThoseOfAStableSort) {
+  Random random(8);
+  for (const std::size_t count : {0, 1, 7, 8, 9, 30}) {
+    std::vector<float> values = column(random, count, 0, 10);
+    for (float& value : values) value = std::floor(value);  // so that some are equal
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](int i) { return values[i]; });
+    for (const Loops* way : kWays) {
+      std::vector<int> places(count + kLanes);
+      way->ranks(values.data(), count, places.data());
+      for (std::size_t place = 0; place < count; ++place) {
+        EXPECT_EQ(places[order[place]], static_cast<int>(place)) << count;
       }
     }
   }
@@ -164,10 +182,10 @@ TEST(Loops, SumOverTheTiesOfEachNode) {
 }
 
 TEST(Loops, DensitiesAreThoseOfTheFormula) {
-  constexpr float kNever = -std::numeric_limits<float>::infinity();
-  const ExpectedTrack::Share near = {100, 50, 2, 0.5F, 1, -1}, far = {160, 40, 0.1F, 0, 0.2F, -3};
+  const ExpectedTrack::Share near = {100, 50, 2, 0.5F, 1, 0.4F};
+  const ExpectedTrack::Share far = {160, 40, 0.1F, 0, 0.2F, 0.05F};
   ExpectedTrack::Share none = near;
-  none.ln_most = kNever;
+  none.most_ppx2 = 0;
   const std::vector<ExpectedTrack> tracks = {
       {100, 50, near, far, 1e-4F}, {100, 50, far, near, 1e-5F}, {100, 50, near, none, 1e-3F}};
   const auto ln_off = [](const ExpectedTrack::Share& share, double x, double y) {
@@ -186,8 +204,8 @@ TEST(Loops, DensitiesAreThoseOfTheFormula) {
       for (std::size_t i = 0; i < count; ++i) {
         const auto& [x_px, y_px, still, moving, anywhere] = tracks[which[i]];
         const double ln_still = ln_off(still, x, 51), ln_moving = ln_off(moving, x, 51);
-        const double all =
-            std::exp(ln_still + still.ln_most) + std::exp(ln_moving + moving.ln_most) + anywhere;
+        const double all = still.most_ppx2 * std::exp(ln_still) +
+                           moving.most_ppx2 * std::exp(ln_moving) + anywhere;
         EXPECT_NEAR(density[i], std::log(all), 2e-6) << x << " " << i;
         EXPECT_NEAR(off[i] / std::max(ln_still, ln_moving), 1, 1e-6) << x << " " << i;
       }
