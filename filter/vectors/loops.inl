@@ -165,15 +165,15 @@ std::size_t count_within(const float* x_px, const float* y_px, std::size_t first
 
 void ranks(const float* values, std::size_t count, int* places) {
   for (std::size_t first = 0; first < count; first += kLanes) {
-    const std::size_t end = first + kLanes < count ? first + kLanes : count;
     const Floats own = load(values + first);
     Ints lower = {};
     std::size_t k = 0;
 #pragma GCC unroll 8
     for (; k < first; ++k) lower -= values[k] <= own;
-    for (; k < end; ++k) {
-      const auto lane = static_cast<std::int32_t>(k - first);
-      lower -= (values[k] < own) | ((values[k] == own) & (lane < kLane));
+#pragma GCC unroll 8
+    for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kLanes); ++lane, ++k) {
+      if (k == count) break;
+      lower -= lane < kLane ? values[k] <= own : values[k] < own;
     }
 #pragma GCC unroll 8
     for (; k < count; ++k) lower -= values[k] < own;
