@@ -251,7 +251,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     bench::ResultOptions what;
     what.keep = request.keep;
     what.compressed = request.gzip;
-    what.is_truth_copied = &one != &own || is_truth_there;
+    what.is_truth_there = &one != &own || is_truth_there;
     if (&one == &own) {
       if (!request.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
       if (request.view) what.show = request.view(scenario);
@@ -293,7 +293,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
     metrics.push_back(one.result->finish(end.warnings));
-    if (&one != &own) one.result->copy_truth(own.result->output().staging());
+    if (&one != &own) one.result->share_truth(*own.result);
     write_how_made(request, scenario, frames, one, &one == &own);
     outputs.push_back(&one.result->output());
   }

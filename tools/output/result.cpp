@@ -42,7 +42,7 @@ Result::Result(const std::filesystem::path& target, const RunInfo& run, cv::Size
   if (keep_ != Keep::figures) rows_.emplace(folder / kFramesFile, run);
   if (options.events) events_.emplace(run);
   if (keep_ == Keep::all || events_) {  // the events' pictures are painted from them at the end
-    writer_.emplace(folder, run, options.compressed, !options.is_truth_copied);
+    writer_.emplace(folder, run, options.compressed, !options.is_truth_there);
   }
   if (options.video_frames_per_second) {
     video_.emplace(folder / kVideoFile, painter_.size_px(), *options.video_frames_per_second);
@@ -124,6 +124,12 @@ void Result::copy_truth(const std::filesystem::path& folder) {
   if (!writer_) return;
   const std::filesystem::path theirs = stored(folder, kTruthFile);
   std::filesystem::copy_file(theirs, folder_.staging() / theirs.filename());
+}
+
+void Result::share_truth(const Result& other) {
+  if (!writer_ || !other.writer_) return;
+  const std::filesystem::path theirs = stored(other.folder_.staging(), kTruthFile);
+  link_or_copy(theirs, folder_.staging() / theirs.filename());
 }
 
 }  // namespace lcs::bench

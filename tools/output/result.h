@@ -48,7 +48,7 @@ Keep keep_of(const std::string& word);
 struct ResultOptions {
   Keep keep = Keep::all;
   bool compressed = false;                        ///< layers and truth
-  bool is_truth_copied = false;                   ///< `copy_truth` provides the truth
+  bool is_truth_there = false;                    ///< `copy_truth` or `share_truth` provides it
   std::optional<double> video_frames_per_second;  ///< absent: no video
   bool events = false;  ///< write the run's errors with pictures, and all pictures
   /// Pictures of these frames from an earlier run; `events` then stores none.
@@ -83,9 +83,13 @@ class Result {
   /// All warnings of the run, after `finish`.
   const std::vector<Warned>& warned() const { return warned_; }
 
-  /// Copies the truth of the same frames from the folder of a whole run. Before `finish`, if there
-  /// are events. \throws std::filesystem::filesystem_error
+  /// Copies the truth of the same frames from the folder of an earlier run. Before `finish`, if
+  /// there are events. \throws std::filesystem::filesystem_error
   void copy_truth(const std::filesystem::path& folder);
+
+  /// After `finish` of both: takes the truth of the same frames from `other`, as one file for both.
+  /// On another file system as a copy. \throws std::filesystem::filesystem_error
+  void share_truth(const Result& other);
 
   Output& output() { return folder_; }
 
