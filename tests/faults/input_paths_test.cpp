@@ -28,10 +28,10 @@ const std::map<std::string, std::set<std::string>> kWays{
       "sim/scene/trial.cpp",          // /dev/null
       "tools/lcs/terminal.cpp",       // /dev/null
       "tools/process/child.cpp",      // /dev/null
-      "tools/files/output_file.cpp",  // the file to be replaced
-      "tools/files/sha256.cpp",       // its own output
+      "tools/files/output_file.cpp",  // the file to be replaced or copied
+      "tools/input/sha256.cpp",       // of regular files alone
       "tools/files/output.cpp",       // a folder, a pipe to write to
-      "tools/tune/journal.cpp"}},     // to append
+      "tools/files/journal.cpp"}},    // to append
     {R"(imread|imdecode)",
      {"sim/pictures/media.h", "sim/pictures/media_module.cpp",  // what the others call
       "sim/pictures/picture_file.cpp", "sim/pictures/picture_file.h"}},

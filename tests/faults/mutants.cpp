@@ -375,15 +375,16 @@ Input sequence(const fs::path& folder) {
                   kSmall);
   };
   make(folder, generate("whole"));
-  for (auto delay = 400ms; !fs::exists(folder / "begun" / ".generate"); delay += 100ms) {
-    fs::remove_all(folder / "begun");
+  for (auto delay = 400ms; !fs::exists(folder / "begun.unfinished" / "work" / "plan.json");
+       delay += 100ms) {
+    fs::remove_all(folder / "begun.unfinished");
     Command command(generate("begun"), {.folder = folder});
     std::this_thread::sleep_for(delay);
     command.send(SIGKILL);
     command.wait();
     if (delay > 10s) throw std::runtime_error("no sequence was caught in the middle");
   }
-  return {{"begun", "whole/manifest.json", "whole/lcs.json"},
+  return {{"begun.unfinished", "whole/manifest.json", "whole/lcs.json"},
           {generate("begun"), generate("whole")}};
 }
 

@@ -23,7 +23,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/files/sha256.h"
+#include "tools/input/sha256.h"
 #include "tools/input/inputs_read.h"
 
 namespace lcs::bench {

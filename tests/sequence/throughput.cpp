@@ -49,16 +49,17 @@ double bare_loop_s(const scenario::Scenario& scenario) {
 
 double generate_s(const scenario::Scenario& scenario, std::vector<std::string> formats) {
   const bench::TemporaryFolder folder;
-  const sequence::GenerateOptions options{std::move(formats), {}, "throughput"};
-  sequence::Journal journal(folder.path() / "sequence",
-                            [&](const auto&) { return sequence::plan_of(scenario, options); });
+  const sequence::GenerateOptions options{std::move(formats), {}, {}};
+  sequence::SequenceFolder target(folder.path() / "sequence", scenario.file.parent_path(), false,
+                                  false, {});
+  target.is_complete(sequence::facts_of(scenario, options));
   // From the first complete frame to the last; no renderer starts in between.
   double first = 0;
-  sequence::generate_frames(scenario, options, journal, {0, scenario.frames}, [&](int whole) {
+  sequence::generate_frames(scenario, options, target, {0, scenario.frames}, [&](int whole) {
     if (whole == 1) first = processor_s();
   });
   const double last = processor_s();
-  sequence::finish_sequence(scenario, options, journal);
+  sequence::finish_sequence(scenario, options, target);
   return (last - first) * scenario.frames / (scenario.frames - 1);
 }
 

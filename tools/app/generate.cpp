@@ -7,22 +7,20 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
 #include "tools/app/command_line.h"
-#include "tools/app/version.h"
+#include "tools/app/how_made.h"
 #include "tools/bench/detector.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
 #include "tools/recording/warnings.h"
 #include "tools/sequence/generator.h"
-#include "tools/sequence/manifest.h"
 #include "tools/sequence/writer.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/shard.h"
@@ -43,15 +41,6 @@ scenario::Scenario load(const GenerateRequest& request) {
   sim::require_scene(scenario);
   if (request.frames > 0) scenario.frames = std::min(scenario.frames, request.frames);
   return scenario;
-}
-
-/// The formats that a finished sequence has; none if there is no such sequence.
-std::vector<std::string> formats_in(const fs::path& folder) {
-  const fs::path manifest = folder / sequence::kManifestFile;
-  if (!fs::exists(manifest)) return {};
-  const nlohmann::json plan = sequence::plan_in_manifest(manifest);
-  return plan.is_object() ? plan.value("formats", std::vector<std::string>())
-                          : std::vector<std::string>();
 }
 
 /// The requested formats and those to which they are added, in the order of the table, without
@@ -76,39 +65,29 @@ std::string megabytes(double bytes) {
 /// Tells the size of a sequence, or of the formats that are added to one, before it is made.
 /// \throws bench::OutputError if the disk has too little room for it.
 void tell_size(const scenario::Scenario& scenario, const std::vector<std::string>& formats,
-               const std::vector<std::string>& earlier, const sequence::Journal& journal,
+               const std::vector<std::string>& earlier, sequence::SequenceFolder& folder,
                Caller& caller) {
   double bytes = sequence::estimated_bytes(scenario, formats);
   if (!earlier.empty()) bytes -= sequence::estimated_bytes(scenario, earlier);
   caller.note(fmt::format("{}: {} frames with {}: about {}{}", scenario.name, scenario.frames,
                           fmt::join(formats, ", "), megabytes(bytes),
                           earlier.empty() ? "" : " more"));
-  bytes *= 1 - 1.0 * journal.recorded() / scenario.frames;
-  const fs::path& folder = journal.folder();
-  const auto free = static_cast<double>(fs::space(folder).available);
+  bytes *= 1 - 1.0 * folder.recorded() / scenario.frames;
+  const auto free = static_cast<double>(fs::space(folder.staging()).available);
   if (bytes <= free) return;
   throw bench::OutputError(
       fmt::format("{}: the sequence takes about {}, and its disk has {} free; make room, or choose "
                   "fewer --formats, fewer --frames or another folder with --out",
-                  folder.string(), megabytes(bytes), megabytes(free)));
-}
-
-void check_complete(const fs::path& folder) {
-  const std::vector<std::string> damaged = sequence::damage(folder);
-  if (!damaged.empty()) {
-    throw std::runtime_error(fmt::format(
-        "{}: {}{}; remove the folder to make it anew", folder.string(), damaged.front(),
-        damaged.size() > 1 ? fmt::format(", and {} more files", damaged.size() - 1) : ""));
-  }
+                  folder.target().string(), megabytes(bytes), megabytes(free)));
 }
 
 /// Makes the parts of one sequence in child processes, one part for each job.
 /// \throws std::runtime_error if a process fails.
-void share_frames(const GenerateRequest& request, const sequence::Journal& journal,
+void share_frames(const GenerateRequest& request, sequence::SequenceFolder& folder,
                   const std::function<void(int)>& show, Caller& caller) {
   std::vector<std::vector<std::string>> commands;
   for (int i = 1; i <= request.jobs; ++i) {
-    commands.push_back(sequence_command(request, request.paths.front(), journal.folder().string()));
+    commands.push_back(sequence_command(request, request.paths.front(), folder.target().string()));
     commands.back().insert(commands.back().end(),
                            {"--shard", fmt::format("{}/{}", i, request.jobs)});
   }
@@ -123,24 +102,53 @@ void share_frames(const GenerateRequest& request, const sequence::Journal& journ
         }
       },
       [&](const std::vector<std::size_t>&) {
-        const int recorded = journal.recorded();
+        const int recorded = folder.recorded();
         while (shown < recorded) show(++shown);
         show(shown);
       });
 }
 
-/// Waits for the folder's lock, so that only one process assembles the sequence.
-void wait_for_turn(const fs::path& folder, std::optional<bench::FolderLock>& turn, Caller& caller) {
-  for (bool is_told = false;; is_told = true) {
-    turn.emplace(folder);
-    if (!turn->is_of_another()) return;
-    if (!is_told) {
+/// Called again and again while another process makes the sequence.
+std::function<void()> waiting(const fs::path& target, Caller& caller) {
+  return [&caller, target, is_told = false]() mutable {
+    if (!std::exchange(is_told, true)) {
       caller.tell(fmt::format("{}: another process makes this sequence; waiting until it has ended",
-                              folder.string()));
+                              target.string()));
     }
     caller.check();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  };
+}
+
+/// The folder of the scenario, to which the paths in a sequence's provenance are relative.
+fs::path folder_of(const scenario::Scenario& scenario) {
+  return fs::absolute(scenario.file).lexically_normal().parent_path();
+}
+
+/// Makes the frames of a part, or of the whole sequence and with it the files of all frames.
+void make(const GenerateRequest& request, const sequence::GenerateOptions& what,
+          sequence::SequenceFolder& folder, Generated& made, Caller& caller) {
+  const scenario::Scenario& scenario = made.scenario;
+  const int frames = made.range.last - made.range.first;
+  int whole = 0;
+  sim::Warnings world;
+  try {
+    const auto progress = caller.progress(scenario.name, std::max(frames, 1), "frames");
+    const auto show = [&](int done) {
+      whole = done;
+      if (done > 0) progress->show(done);
+      caller.check();
+    };
+    if (request.jobs > 1) share_frames(request, folder, show, caller);
+    world = sequence::generate_frames(scenario, what, folder, made.range, show);
+  } catch (const Interrupted&) {
+    throw Interrupted(fmt::format(
+        "interrupted; {} of {} frames are whole, and the same command goes on from there", whole,
+        frames));
   }
+  caller.warn(bench::lines_of(bench::WarningWatch(bench::Truth::all).warned(world)));
+  made.state = request.shard.empty() ? Generated::State::whole : Generated::State::part;
+  if (request.shard.empty()) made.notes = sequence::finish_sequence(scenario, what, folder);
 }
 
 }  // namespace
@@ -164,59 +172,30 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
     throw std::invalid_argument(
         "--jobs shares the frames of a scenario, and so does --shard; give one of them");
   }
-  scenario::Scenario scenario = load(request);
+  Generated made{.folder = {}, .range = {}, .notes = {}, .scenario = load(request)};
+  const scenario::Scenario& scenario = made.scenario;
   bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
   const bool is_part = !request.shard.empty();
   const auto [part, parts] = is_part ? suite::shard_of(request.shard) : suite::Shard{};
-  const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
-  sequence::GenerateOptions what{formats_of(request, {}), request.sets, program_text()};
+  made.range = sequence::part_of(scenario.frames, part, parts);
+  sequence::GenerateOptions what{formats_of(request, {}), request.sets, {}};
+  add_program(what.program, {});
+  const fs::path target = target_of(request, scenario);
+  sequence::SequenceFolder folder(target, folder_of(scenario), request.add, is_part,
+                                  waiting(target, caller));
+  made.folder = folder.target();
   std::vector<std::string> earlier;
-  std::optional<bench::FolderLock> turn;
-  sequence::Journal journal(
-      target_of(request, scenario),
-      [&](const fs::path& folder) {
-        if (!is_part) wait_for_turn(folder, turn, caller);
-        if (request.add) earlier = formats_in(folder);
-        what.formats = formats_of(request, earlier);
-        return sequence::plan_of(scenario, what);
-      },
-      request.add);
-  Generated made{.folder = journal.folder(), .range = range, .notes = {}};
-  if (journal.is_complete()) {
-    check_complete(journal.folder());
+  if (request.add) earlier = folder.formats();
+  what.formats = formats_of(request, earlier);
+  if (folder.is_complete(sequence::facts_of(scenario, what))) {
     made.state = Generated::State::complete_before;
-  } else {
-    if (request.add && !is_part) check_complete(journal.folder());
-    tell_size(scenario, what.formats, earlier, journal, caller);
-    if (request.jobs == 1) {  // otherwise the child processes print it
-      caller.warn(scenario::shadowed_files(scenario));
-    }
-    std::optional<sim::Warnings> world;
-    const int frames = range.last - range.first;
-    int whole = 0;
-    try {
-      const auto progress = caller.progress(scenario.name, std::max(frames, 1), "frames");
-      const auto show = [&](int done) {
-        whole = done;
-        if (done > 0) progress->show(done);
-        caller.check();
-      };
-      if (request.jobs > 1) share_frames(request, journal, show, caller);
-      world = sequence::generate_frames(scenario, what, journal, range, show);
-    } catch (const Interrupted&) {
-      throw Interrupted(
-          fmt::format("interrupted; {} of {} frames are whole, and the same command goes on from "
-                      "there",
-                      whole, frames));
-    }
-    caller.warn(bench::lines_of(bench::WarningWatch(bench::Truth::all).warned(world)));
-    if (is_part) {
-      made.state = Generated::State::part;
-    } else {
-      made.notes = sequence::finish_sequence(scenario, what, journal);
-    }
+    return made;
   }
-  made.scenario = std::move(scenario);
+  tell_size(scenario, what.formats, earlier, folder, caller);
+  if (request.jobs == 1) {  // otherwise the child processes print it
+    caller.warn(scenario::shadowed_files(scenario));
+  }
+  make(request, what, folder, made, caller);
   return made;
 }
 

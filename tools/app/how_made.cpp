@@ -11,7 +11,6 @@
 #include "tools/app/version.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
-#include "tools/output/result.h"
 
 namespace lcs::app {
 namespace {
@@ -48,18 +47,22 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   throw bench::OutputError(text + "; name a place by --out, or remove that folder");
 }
 
+void add_program(nlohmann::ordered_json& facts, const sim::Versions& versions) {
+  facts["program"] = program_text();
+  if (!is_of_a_commit()) facts["program_sha256"] = program_sha256();
+  if (!versions.mujoco.empty()) facts["mujoco"] = versions.mujoco;
+  if (!versions.gl_renderer.empty()) facts["renderer"] = versions.gl_renderer;
+  facts["opencv"] = cv::getVersionString();
+}
+
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
-                    const sim::Versions& versions, const nlohmann::ordered_json& about) {
+                    const bench::Provenance& provenance) {
   nlohmann::ordered_json json{{"command", command}};
-  json.update(about);
-  json["program"] = program_text();
-  if (!versions.mujoco.empty()) json["mujoco"] = versions.mujoco;
-  if (!versions.gl_renderer.empty()) json["renderer"] = versions.gl_renderer;
-  json["opencv"] = cv::getVersionString();
   json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start.date));
   json["wall_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start.wall).count();
   json["cpu_s"] = static_cast<double>(std::clock() - start.cpu) / CLOCKS_PER_SEC;
+  json.update(provenance.json());
   bench::write_file(
       folder / bench::kHowMadeFile,
       json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');

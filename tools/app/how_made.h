@@ -3,21 +3,25 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sim/simulation.h"
 #include "tools/app/caller.h"
+#include "tools/files/provenance.h"
 
 namespace lcs::app {
 
-/// Writes command, versions, the date of the start (UTC), and seconds since, after the entries of
-/// `about`. It has neither the host's name nor the user's.
-/// \param command that repeats the result.
+/// Adds the program and the versions of its libraries to the facts of a provenance. A program that
+/// was built from changed files is known by its SHA-256, too.
 /// \param versions empty if nothing was simulated.
+void add_program(nlohmann::ordered_json& facts, const sim::Versions& versions);
+
+/// Writes the command, the provenance, the date of the start (UTC), and seconds since. The file has
+/// neither the host's name nor the user's.
+/// \param command that repeats the result.
 /// \throws bench::OutputError
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
-                    const sim::Versions& versions, const nlohmann::ordered_json& about);
+                    const bench::Provenance& provenance);
 
 /// Begins the times of the next `write_how_made`, in a process that carries out several requests.
 void note_start();

@@ -49,10 +49,12 @@ KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
     });
   }();
   kinematics::write_study(folder.staging(), study);
-  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)), sim::versions(),
-                 {{"scenario", config.scenario.name},
-                  {"seed", config.scenario.seed},
-                  {"settings", request.sets}});
+  nlohmann::ordered_json facts{{"scenario", config.scenario.name},
+                               {"seed", config.scenario.seed},
+                               {"settings", request.sets}};
+  add_program(facts, sim::versions());
+  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)),
+                 bench::provenance_of(std::move(facts)));
   caller.check();
   folder.commit();
   std::vector<kinematics::Statement> answer = kinematics::answer(study);

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
+#include "tools/files/written.h"
+#include "tools/input/message.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/merge.h"
 #include "tools/suite/suite_run.h"
@@ -18,49 +23,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes the files of a part's runs, of all detectors, and its pictures of worlds.
-void take_files(const fs::path& part, const suite::SuiteResult& suite, const fs::path& to,
-                Caller& caller) {
-  for (const suite::ScenarioResult& scenario : suite.scenarios) {
-    for (const suite::RunResult& run : scenario.runs) {
-      caller.check();
-      if (run.folder.empty()) continue;
-      fs::create_directories(to / run.folder);
-      for (const fs::directory_entry& file : fs::directory_iterator(part / run.folder)) {
-        bench::link_or_copy(file.path(), to / run.folder / file.path().filename());
-      }
-    }
+/// A part, which may come from another machine and from somebody else.
+struct Part {
+  fs::path folder;
+  bench::WrittenFiles files;  ///< all of them as they were written
+  bench::Provenance provenance;
+};
+
+/// \throws std::runtime_error if a file of the part is not as lcs has written it.
+Part read_part(const std::string& named) {
+  Part part{.folder = suite::folder_of(named), .files = {}, .provenance = {}};
+  if (const std::string what = bench::first_difference(part.folder); !what.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: {}; make that part again", part.folder.string(), what));
   }
-  if (!fs::exists(part / report::kSheetsFolder)) return;
-  fs::create_directories(to / report::kSheetsFolder);
-  for (const fs::directory_entry& file : fs::directory_iterator(part / report::kSheetsFolder)) {
-    bench::link_or_copy(file.path(), to / report::kSheetsFolder / file.path().filename());
+  part.files = bench::read_record(part.folder / bench::kRecordName);
+  part.provenance = bench::read_how_made(part.folder);
+  return part;
+}
+
+/// \throws std::runtime_error for parts of which the provenances differ.
+bench::Provenance joined(const std::vector<Part>& parts, const suite::SuiteResult& whole) {
+  const Part& first = parts.front();
+  bench::Provenance provenance{.facts = first.provenance.facts, .read = {}};
+  for (const Part& part : parts) {
+    const std::string what = bench::difference(first.provenance, part.provenance, kFactsOfParts);
+    if (!what.empty()) {
+      throw std::runtime_error(fmt::format("{} and {} are no parts of one suite: {}",
+                                           first.folder.string(), part.folder.string(), what));
+    }
+    provenance.add_read(part.provenance, part.folder.string());
+  }
+  suite::Runs runs;
+  for (const suite::ScenarioResult& scenario : whole.scenarios) {
+    std::vector<std::uint64_t>& seeds = runs.emplace_back(scenario.name, 0).second;
+    for (const suite::RunResult& run : scenario.runs) seeds.push_back(run.seed);
+  }
+  add_part(provenance.facts, "", runs);
+  return provenance;
+}
+
+/// Takes the files of the runs, of all detectors, and the pictures of worlds. The report and so on
+/// are made anew.
+void take_files(const Part& part, const fs::path& to, Caller& caller) {
+  const bench::ResultNames names = suite::suite_files();
+  for (const auto& [name, digest] : part.files) {
+    caller.check();
+    const fs::path file = name;
+    if (!bench::is_inner(file) || !bench::is_name_of(file, names)) {
+      throw std::runtime_error(fmt::format("{}: {} is no file of a suite; make that part again",
+                                           part.folder.string(), input::one_line(name)));
+    }
+    const fs::path top = *file.begin();
+    const bool is_of_detector = top == "beside" && file.filename() != suite::kSuiteFile;
+    if (top != "runs" && top != report::kSheetsFolder && !is_of_detector) continue;
+    fs::create_directories((to / file).parent_path());
+    bench::link_or_copy(part.folder / file, to / file);
   }
 }
 
-/// The parts of one detector. \param within its folder in each part.
-class Parts {
- public:
-  Parts(const std::vector<std::string>& folders, const fs::path& within) {
-    suites_.reserve(folders.size());  // the parts refer to them
-    for (const std::string& folder : folders) {
-      const fs::path whole = suite::folder_of(folder);
-      const fs::path place = within.empty() ? whole : whole / within;
-      suites_.push_back(suite::read_suite(place));
-      parts_.push_back({suites_.back(), place});
-    }
+/// The suites of one detector. \param within its folder in each part.
+suite::SuiteResult merged(const std::vector<Part>& parts, const fs::path& within) {
+  std::vector<suite::SuiteResult> suites;
+  suites.reserve(parts.size());  // `in_folders` refers to them
+  std::vector<suite::SuiteInFolder> in_folders;
+  for (const Part& part : parts) {
+    const fs::path place = within.empty() ? part.folder : part.folder / within;
+    suites.push_back(suite::read_suite(place));
+    in_folders.push_back({suites.back(), place});
   }
-  suite::SuiteResult merged() const { return suite::merge(parts_); }
-  void take_files(const fs::path& to, Caller& caller) const {
-    for (const suite::SuiteInFolder& part : parts_) {
-      app::take_files(part.folder, part.suite, to, caller);
-    }
-  }
-
- private:
-  std::vector<suite::SuiteResult> suites_;
-  std::vector<suite::SuiteInFolder> parts_;
-};
+  return suite::merge(in_folders);
+}
 
 }  // namespace
 
@@ -73,27 +106,24 @@ std::vector<std::string> arguments_of(const MergeRequest& request) {
 }
 
 SuiteMade merge(const MergeRequest& request, Caller& caller) {
-  const Parts own(request.parts, "");
-  const suite::SuiteResult result = own.merged();
-  std::vector<Parts> beside;
+  std::vector<Part> parts;
+  for (const std::string& folder : request.parts) parts.push_back(read_part(folder));
+  const suite::SuiteResult result = merged(parts, "");
   std::vector<suite::SuiteResult> others;
   for (const std::string& name : result.beside) {
-    beside.emplace_back(request.parts, part_of(name, result.detector));
-    others.push_back(beside.back().merged());
+    others.push_back(merged(parts, part_of(name, result.detector)));
   }
+  const bench::Provenance provenance = joined(parts, result);
   const std::optional<suite::SuiteResult> baseline = baseline_of(request.place);
-  std::size_t runs = 0;
-  for (const suite::ScenarioResult& scenario : result.scenarios) runs += scenario.runs.size();
-  note_longer(request.place.out, request.place.is_named(), "runs", runs, caller);
+  note_longer(request.place.out, request.place.is_named(), "runs",
+              provenance.facts.at("runs").get<std::size_t>(), caller);
 
   bench::Output folder(request.place.out, suite::suite_files());
-  own.take_files(folder.staging(), caller);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    const fs::path to = folder.staging() / part_of(others[i].detector, result.detector);
-    fs::create_directories(to);
-    beside[i].take_files(to, caller);
+  for (const Part& part : parts) take_files(part, folder.staging(), caller);
+  for (const suite::SuiteResult& other : others) {
+    fs::create_directories(folder.staging() / part_of(other.detector, result.detector));
   }
-  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)), {}, {{"runs", runs}});
+  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)), provenance);
   return finish_suite(folder, request.place, result, std::move(others), baseline, caller);
 }
 

@@ -74,8 +74,28 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback, in
           }};
 }
 
+/// \throws std::runtime_error if a file that the earlier run has read was changed since, such as a
+///   part of its scene. The scenario's own values are compared one by one (bench::EarlierRun).
+void require_same_files(const RunRequest& request, const scenario::Scenario& scenario) {
+  if (!std::filesystem::exists(std::filesystem::path(request.recorded) / bench::kHowMadeFile)) {
+    return;
+  }
+  bench::Provenance there = bench::read_how_made(request.recorded);
+  std::error_code error;
+  std::erase_if(there.read, [&](const auto& file) {
+    return std::filesystem::equivalent(file.first, scenario.file, error) ||
+           !std::filesystem::exists(file.first, error);  // it was made elsewhere
+  });
+  const std::string what = bench::changed_since(there);
+  if (what.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{} is no recording of this run: {}; run {} without --recorded to make one",
+                  request.recorded, what, scenario.name));
+}
+
 Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
                 const Intrinsics& camera) {
+  require_same_files(request, scenario);
   const auto earlier = std::make_shared<bench::EarlierRun>(request.recorded, scenario, camera);
   const bool is_program = !request.detector.command.empty();
   const bool with_images = !request.no_video || request.view || is_program;
@@ -168,14 +188,16 @@ std::string command_of(const RunRequest& request, const scenario::Scenario& scen
 /// Writes run.json.
 void write_how_made(const RunRequest& request, const scenario::Scenario& scenario,
                     const Frames& frames, const Watching& watching, bool is_own) {
+  nlohmann::ordered_json facts{{"scenario", scenario.name},
+                               {"seed", scenario.seed},
+                               {"frames", watching.result->frames()},
+                               {"detector", watching.spec.name},
+                               {"settings", request.sets},
+                               {"recorded", request.recorded}};
+  add_program(facts, frames.versions);
   app::write_how_made(watching.result->output().staging(),
-                      command_of(request, scenario, watching, is_own), frames.versions,
-                      {{"scenario", scenario.name},
-                       {"seed", scenario.seed},
-                       {"frames", watching.result->frames()},
-                       {"detector", watching.spec.name},
-                       {"settings", request.sets},
-                       {"recorded", request.recorded}});
+                      command_of(request, scenario, watching, is_own),
+                      bench::provenance_of(std::move(facts)));
 }
 
 /// Writes the report page of the run as a suite with a single run.

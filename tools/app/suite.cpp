@@ -19,9 +19,9 @@
 #include "tools/comparators/detectors.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
-#include "tools/files/sha256.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/message.h"
+#include "tools/input/sha256.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/plan.h"
@@ -83,8 +83,10 @@ std::vector<scenario::Criterion> criteria_of(const std::vector<suite::PlannedSce
   return all;
 }
 
-/// \throws std::runtime_error that lists all missing files of detections.
-void require_detections(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan) {
+/// Records the files of detections of all runs, also those of other parts, so that parts of other
+/// detections are known apart.
+/// \throws std::runtime_error that lists the missing files of the planned runs.
+void require_detections(const fs::path& folder, const SuitePlan& planned) {
   if (!fs::is_directory(folder)) {
     throw std::invalid_argument(
         fmt::format("--detections {} is no folder; name one that holds {} for each run",
@@ -92,11 +94,19 @@ void require_detections(const fs::path& folder, const std::vector<suite::Planned
   }
   input::note_input(folder);
   std::vector<std::string> missing;
-  for (const suite::PlannedScenario& planned : plan) {
-    if (!planned.scenario) continue;
-    for (const std::uint64_t seed : planned.seeds) {
-      const fs::path file = suite::detections_of(planned.name, seed);
-      if (!fs::is_regular_file(folder / file)) missing.push_back(file.string());
+  for (const suite::PlannedScenario& one : planned.plan) {
+    if (!one.scenario) continue;
+    for (const std::uint64_t seed : one.seeds) {
+      const fs::path file = suite::detections_of(one.name, seed);
+      fs::is_regular_file(folder / file) ? input::note_input(folder / file)
+                                         : missing.push_back(file.string());
+    }
+  }
+  if (planned.part_of) {
+    for (const auto& [name, seeds] : planned.part_of->whole) {
+      for (const std::uint64_t seed : seeds) {
+        input::note_input(folder / suite::detections_of(name, seed));
+      }
     }
   }
   if (missing.empty()) return;
@@ -108,8 +118,7 @@ void require_detections(const fs::path& folder, const std::vector<suite::Planned
 
 /// Leaves only the runs of the requested part.
 /// \param whole all runs: scenarios with their seeds. \param seconds of each run.
-suite::PartOf choose_part(const SuiteRequest& request,
-                          std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole,
+suite::PartOf choose_part(const SuiteRequest& request, suite::Runs whole,
                           const std::vector<double>& seconds,
                           std::set<std::pair<std::string, std::uint64_t>>& chosen) {
   const suite::Shard shard = suite::shard_of(request.shard);
@@ -127,13 +136,6 @@ suite::PartOf choose_part(const SuiteRequest& request,
   return {.shard = shard, .whole = std::move(whole)};
 }
 
-void note_digests(SuitePlan& planned) {
-  if (!planned.part_of) return;
-  for (const suite::PlannedScenario& one : planned.plan) {
-    planned.part_of->scenario_sha256[one.name] = bench::sha256_of_file(one.file).value_or("none");
-  }
-}
-
 /// Worlds are chosen before they are drawn, so that only those of this part are drawn.
 SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
                       const std::optional<suite::SuiteResult>& former, Caller& caller) {
@@ -141,7 +143,7 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
   SuitePlan planned;
   std::set<std::pair<std::string, std::uint64_t>> runs;
   if (!request.shard.empty()) {
-    std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+    suite::Runs whole;
     std::vector<double> seconds;
     for (const worlds::Kept& one : chosen) {
       auto& [name, own] = whole.emplace_back(one.file.stem().string(), 0);
@@ -163,7 +165,6 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
   planned.plan = suite::plan(
       {.paths = files, .group = request.group, .filter = {}, .sets = request.sets, .seeds = seeds});
   if (planned.part_of) suite::keep_runs(planned.plan, runs);
-  note_digests(planned);
   return planned;
 }
 
@@ -176,73 +177,56 @@ SuitePlan plan_scenarios(const SuiteRequest& request, int seeds,
                               .sets = request.sets,
                               .seeds = seeds});
   if (request.shard.empty()) return planned;
-  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+  suite::Runs whole;
   for (const suite::PlannedScenario& one : planned.plan) whole.emplace_back(one.name, one.seeds);
   std::set<std::pair<std::string, std::uint64_t>> runs;
   planned.part_of =
       choose_part(request, std::move(whole), suite::estimated_seconds(planned.plan, former), runs);
   suite::keep_runs(planned.plan, runs);
-  note_digests(planned);
   return planned;
 }
 
-/// What the runs of a suite depend on. If any of it changes, kept runs do not fit.
-nlohmann::ordered_json request_of(const SuiteRequest& request, const SuitePlan& planned,
-                                  const std::string& version) {
-  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
-  std::size_t count = 0;
-  for (const suite::PlannedScenario& one : planned.plan) {
-    const auto digest = [](const fs::path& file) {
-      return bench::sha256_of_file(file).value_or("none");
-    };
-    runs.push_back({{"name", one.name},
-                    {"seeds", one.seeds},
-                    {"scenario_sha256", digest(one.file)},
-                    {"scene_sha256", one.scenario ? digest(one.scenario->scene) : ""}});
-    count += one.seeds.size();
-  }
-  return {{"detector", app::spec_of(request.detector).name},
-          {"arguments", arguments_of(request.detector)},
-          {"detections", request.detector.detections},
-          {"beside", request.beside},
-          {"settings", request.sets},
-          {"recorded", request.recorded},
-          {"keep", request.keep},
-          {"shard", request.shard},
-          {"program_sha256", program_sha256()},
-          {"versions", version},
-          {"runs", count},
-          {"scenarios", runs}};
-}
-
-/// Goes on with an unfinished suite of the same request, or begins anew.
-/// \throws std::runtime_error if there is an unfinished suite of another request.
-void begin(bench::Output& folder, const nlohmann::ordered_json& json, const SuiteRequest& request) {
-  const fs::path file = folder.staging() / bench::kHowMadeFile;
-  if (fs::exists(file) && !request.anew) {
-    constexpr input::FileKind kKind{bench::kMostJsonBytes, "give --anew to begin again"};
-    const auto kept = bench::parse_json<nlohmann::ordered_json>(input::read_file(file, kKind));
-    for (const auto& [key, value] : json.items()) {
-      if (kept.contains(key) && kept.at(key) == value) continue;
-      throw std::runtime_error(fmt::format(
-          "{} holds the runs of an unfinished suite, and its {} differ: finish it by its own "
-          "command, {}; or give --anew to drop its runs",
-          folder.staging().parent_path().string(), key,
-          kept.contains("command") && kept.at("command").is_string()
-              ? kept.at("command").get<std::string>()
-              : ""));
-    }
-    return;
-  }
-  if (!fs::is_empty(folder.staging())) folder.empty();
-  write_how_made(folder.staging(), suite::shell_line(arguments_of(request)), {}, json);
-}
-
-void remove_runs(const fs::path& folder, suite::SuiteResult& result) {
+/// The runs are no part of the result: suite.json has their figures.
+void forget_folders(suite::SuiteResult& result) {
   for (suite::ScenarioResult& scenario : result.scenarios) {
     for (suite::RunResult& run : scenario.runs) run.folder.clear();
   }
-  fs::remove_all(folder / "runs");
+}
+
+/// The settings on which the runs of a suite depend, and the runs.
+nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& planned) {
+  nlohmann::ordered_json facts{{"detector", app::spec_of(request.detector).name},
+                               {"arguments", arguments_of(request.detector)},
+                               {"detections", request.detector.detections},
+                               {"beside", request.beside},
+                               {"settings", request.sets},
+                               {"recorded", request.recorded},
+                               {"keep", word_of(request.keep)}};
+  facts["split"] = request.worlds.split;
+  add_program(facts, sim::versions());
+  suite::Runs runs;
+  for (const suite::PlannedScenario& one : planned.plan) runs.emplace_back(one.name, one.seeds);
+  add_part(facts, request.shard, runs);
+  return facts;
+}
+
+/// Goes on with an unfinished suite of the same provenance, or begins anew.
+/// \throws std::runtime_error if there is an unfinished suite of another one.
+void begin(bench::Output& folder, const bench::Provenance& provenance,
+           const SuiteRequest& request) {
+  const fs::path& staging = folder.staging();
+  if (request.anew || !fs::exists(staging / bench::kHowMadeFile)) {
+    if (!fs::is_empty(staging)) folder.empty();
+    return write_how_made(staging, suite::shell_line(arguments_of(request)), provenance);
+  }
+  const bench::Provenance there = bench::read_how_made(staging);
+  std::string what = bench::difference(there, provenance);
+  if (what.empty()) what = bench::changed_since(there);
+  if (what.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{} holds the runs of an unfinished suite, and {}; finish it by its own command, "
+                  "which its run.json has, or give --anew to drop its runs",
+                  staging.parent_path().string(), what));
 }
 
 }  // namespace
@@ -281,107 +265,162 @@ SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
                    : plan_scenarios(request, seeds, times);
 }
 
-SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
-  // Validate the request before anything runs.
-  const comparators::DetectorSpec spec = app::spec_of(request.detector);
-  const std::string& own = spec.name;
-  const std::set<std::string> watching = names_of_all(request, own);
-  std::string recorded;
-  if (!request.recorded.empty()) {
-    comparators::require_corners_suffice(spec);
-    recorded = fmt::format("{}, {}", request.recorded, suite::read_suite(request.recorded).version);
-  }
-  const bool of_worlds = !request.worlds.split.empty();
-  const SuitePlan planned = plan_suite(request, caller);
-  const std::vector<suite::PlannedScenario>& plan = planned.plan;
-  if (!request.detector.detections.empty()) require_detections(request.detector.detections, plan);
-  caller.warn(seldom_meant(plan, spec));
-  caller.warn(bench::not_asked(criteria_of(plan), watching));
-  const std::optional<suite::SuiteResult> baseline = baseline_of(request.place);
-  const std::string version = version_line();
-  const nlohmann::ordered_json json = request_of(request, planned, version);
-  note_longer(request.place.out, request.place.is_named(), "runs",
-              json.at("runs").get<std::size_t>(), caller);
+namespace {
 
-  bench::Output folder(request.place.out, suite::suite_files(), bench::Unfinished::kept);
-  begin(folder, json, request);
-  std::size_t whole = 0, total = 0;
-  const auto run = [&](const std::vector<std::string>& detectors, const fs::path& recordings) {
-    const bool with_own = detectors.front() == own;
-    std::vector<suite::SuiteWatcher> watchers;
-    for (const std::string& name : detectors) {
-      const bool is_own = name == own;
-      watchers.push_back({name, folder.staging() / part_of(name, own), is_own});
-      fs::create_directories(watchers.back().folder);
+/// A suite while it is made.
+class Making {
+ public:
+  Making(const SuiteRequest& request, Caller& caller, SuiteWatch& watch)
+      : request_(request), caller_(caller), watch_(watch), own_(spec_.name) {
+    const std::set<std::string> watching = names_of_all(request_, own_);
+    if (!request_.recorded.empty()) comparators::require_corners_suffice(spec_);
+    planned_ = plan_suite(request_, caller_);
+    if (!request_.detector.detections.empty()) {
+      require_detections(request_.detector.detections, planned_);
     }
-    whole = suite::count_whole(plan, watchers);
-    if (whole > 0) {
-      caller.note(fmt::format("going on, with {} of the runs there already", whole));
-    }
-    std::vector<suite::SuiteResult> results = suite::run_suite(
-        plan,
-        {.watchers = watchers,
-         .own_detector = with_own ? arguments_of(request.detector) : std::vector<std::string>{},
-         .detections = with_own ? request.detector.detections : "",
-         .keep = request.keep,
-         .sets = request.sets,
-         .recorded = recordings,
-         .version = version,
-         .jobs = jobs_at_once(request.jobs),
-         .former = former_suite(folder.target() / part_of(detectors.front(), own)),
-         .on_run =
-             [&](const suite::SuiteProgress& done, const std::string& scenario,
-                 std::span<const suite::RunResult* const> runs) {
-               folder.keep();
-               whole = done.done;
-               total = done.total;
-               watch.finished(done, scenario, detectors, runs);
-             },
-         .on_tick =
-             [&](const suite::SuiteProgress& now) {
-               total = now.total;
-               caller.check();
-               watch.show(now);
-             }});
-    caller.check();
-    for (suite::SuiteResult& result : results) {
-      result.part_of = planned.part_of;
-      if (!of_worlds) continue;
-      result.split = request.worlds.split;
-      add_origins(result);
-    }
-    return results;
-  };
-  // Detectors that need pictures cannot use a recording: they simulate in runs of their own.
-  std::vector<std::string> beside_own{own}, apart;
-  for (const std::string& name : request.beside) {
-    const bool looks = comparators::spec_of(name).detector.sees_pictures;
-    (looks && !request.recorded.empty() ? apart : beside_own).push_back(name);
+    caller_.warn(seldom_meant(planned_.plan, spec_));
+    caller_.warn(bench::not_asked(criteria_of(planned_.plan), watching));
   }
+
+  SuiteMade made();
+
+ private:
+  struct Results {
+    suite::SuiteResult own;
+    std::vector<suite::SuiteResult> others;
+  };
+
+  Results run_all(bench::Output& folder);
+  std::vector<suite::SuiteResult> run(bench::Output& folder,
+                                      const std::vector<std::string>& detectors,
+                                      const fs::path& recordings);
+  std::vector<suite::SuiteWatcher> watchers(bench::Output& folder,
+                                            const std::vector<std::string>& detectors) const;
+
+  const SuiteRequest& request_;
+  Caller& caller_;
+  SuiteWatch& watch_;
+  const comparators::DetectorSpec spec_ = app::spec_of(request_.detector);
+  const std::string own_;  ///< name of the suite's own detector
+  const bool of_worlds_ = !request_.worlds.split.empty();
+  SuitePlan planned_;
+  bench::Provenance provenance_;
+  std::size_t whole_ = 0, total_ = 0;  ///< runs
+};
+
+/// Where the runs of each detector go. Runs of which only the figures are kept are no part of the
+/// result, and stay until it is committed.
+std::vector<suite::SuiteWatcher> Making::watchers(bench::Output& folder,
+                                                  const std::vector<std::string>& detectors) const {
+  const bool are_kept = request_.keep != bench::Keep::figures;
+  std::vector<suite::SuiteWatcher> all;
+  for (const std::string& name : detectors) {
+    const fs::path part = part_of(name, own_);
+    all.push_back({name, (are_kept ? folder.staging() : folder.work()) / part, name == own_});
+    fs::create_directories(all.back().folder);
+    fs::create_directories(folder.staging() / part);
+  }
+  return all;
+}
+
+std::vector<suite::SuiteResult> Making::run(bench::Output& folder,
+                                            const std::vector<std::string>& detectors,
+                                            const fs::path& recordings) {
+  const bool with_own = detectors.front() == own_;
+  std::vector<suite::SuiteResult> results = suite::run_suite(
+      planned_.plan,
+      {.watchers = watchers(folder, detectors),
+       .own_detector = with_own ? arguments_of(request_.detector) : std::vector<std::string>{},
+       .detections = with_own ? request_.detector.detections : "",
+       .keep = request_.keep,
+       .sets = request_.sets,
+       .recorded = recordings,
+       .version = version_line(),
+       .jobs = jobs_at_once(request_.jobs),
+       .former = former_suite(folder.target() / part_of(detectors.front(), own_)),
+       .provenance = provenance_,
+       .on_begin =
+           [&](std::size_t there) {
+             whole_ = there;
+             if (there == 0) return;
+             caller_.note(fmt::format("going on, with {} of the runs there already", there));
+           },
+       .on_run =
+           [&](const suite::SuiteProgress& done, const std::string& scenario,
+               std::span<const suite::RunResult* const> runs) {
+             folder.keep();
+             whole_ = done.done;
+             total_ = done.total;
+             watch_.finished(done, scenario, detectors, runs);
+           },
+       .on_tick =
+           [&](const suite::SuiteProgress& now) {
+             total_ = now.total;
+             caller_.check();
+             watch_.show(now);
+           }});
+  caller_.check();
+  for (suite::SuiteResult& result : results) {
+    if (request_.keep == bench::Keep::figures) forget_folders(result);
+    result.part_of = planned_.part_of;
+    if (!of_worlds_) continue;
+    result.split = request_.worlds.split;
+    add_origins(result);
+  }
+  return results;
+}
+
+/// Detectors that need pictures cannot use a recording: they simulate in runs of their own.
+Making::Results Making::run_all(bench::Output& folder) {
+  std::vector<std::string> beside_own{own_}, apart;
+  for (const std::string& name : request_.beside) {
+    const bool looks = comparators::spec_of(name).detector.sees_pictures;
+    (looks && !request_.recorded.empty() ? apart : beside_own).push_back(name);
+  }
+  std::vector<suite::SuiteResult> others = run(folder, beside_own, request_.recorded);
+  Results results{.own = std::move(others.front()), .others = {}};
+  others.erase(others.begin());
+  if (!apart.empty()) std::ranges::move(run(folder, apart, ""), std::back_inserter(others));
+  results.others = std::move(others);
+  for (const suite::SuiteResult& other : results.others) {
+    results.own.beside.push_back(other.detector);
+  }
+  return results;
+}
+
+SuiteMade Making::made() {
+  std::string recorded;
+  if (!request_.recorded.empty()) {
+    recorded =
+        fmt::format("{}, {}", request_.recorded, suite::read_suite(request_.recorded).version);
+  }
+  provenance_ = bench::provenance_of(facts_of(request_, planned_));
+  const std::optional<suite::SuiteResult> baseline = baseline_of(request_.place);
+  note_longer(request_.place.out, request_.place.is_named(), "runs",
+              provenance_.facts.at("runs").get<std::size_t>(), caller_);
+  bench::Output folder(request_.place.out, suite::suite_files(), bench::Unfinished::kept);
+  begin(folder, provenance_, request_);
   try {
-    std::vector<suite::SuiteResult> others = run(beside_own, request.recorded);
-    suite::SuiteResult result = std::move(others.front());
-    others.erase(others.begin());
-    if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
-    watch.wipe();
-    if (request.keep == bench::Keep::figures) {  // suite.json has them
-      remove_runs(folder.staging() / part_of(own, own), result);
-      for (suite::SuiteResult& other : others) {
-        remove_runs(folder.staging() / part_of(other.detector, own), other);
-      }
-    }
-    result.recorded = recorded;
-    for (const suite::SuiteResult& other : others) result.beside.push_back(other.detector);
-    if (of_worlds) write_sheets(folder.staging(), plan, result, caller);
-    return finish_suite(folder, request.place, std::move(result), std::move(others), baseline,
-                        caller);
+    Results results = run_all(folder);
+    watch_.wipe();
+    results.own.recorded = recorded;
+    write_how_made(folder.staging(), suite::shell_line(arguments_of(request_)), provenance_);
+    if (of_worlds_) write_sheets(folder.staging(), planned_.plan, results.own, caller_);
+    return finish_suite(folder, request_.place, std::move(results.own), std::move(results.others),
+                        baseline, caller_);
   } catch (const Interrupted&) {
-    watch.wipe();
-    if (whole == 0) throw;
+    watch_.wipe();
+    if (whole_ == 0) throw;
     throw Interrupted(
         fmt::format("interrupted; {} of {} runs are kept, and the same command goes on from there",
-                    whole, total));
+                    whole_, total_));
   }
+}
+
+}  // namespace
+
+SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
+  return Making(request, caller, watch).made();
 }
 
 }  // namespace lcs::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tools/files/output_file.h"
@@ -20,8 +21,33 @@ std::optional<suite::SuiteResult> baseline_of(const SuitePlace& place) {
   return suite::read_suite(place.baseline);
 }
 
+std::vector<std::string> other_inputs(const fs::path& before, const fs::path& after) {
+  for (const fs::path& suite : {before, after}) {
+    if (!fs::exists(suite / bench::kHowMadeFile)) return {};
+  }
+  const auto read_by = [](const fs::path& suite) {
+    return bench::Provenance{.facts = {}, .read = bench::read_how_made(suite).read};
+  };
+  const std::string what = bench::difference(read_by(before), read_by(after));
+  if (what.empty()) return {};
+  return {fmt::format("{} and {} were not made of the same files: {}", before.string(),
+                      after.string(), what)};
+}
+
 fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
+}
+
+void add_part(nlohmann::ordered_json& facts, const std::string& shard, const suite::Runs& runs) {
+  std::size_t count = 0;
+  nlohmann::ordered_json scenarios = nlohmann::ordered_json::array();
+  for (const auto& [name, seeds] : runs) {
+    scenarios.push_back({{"name", name}, {"seeds", seeds}});
+    count += seeds.size();
+  }
+  facts["shard"] = shard;
+  facts["runs"] = count;
+  facts["scenarios"] = std::move(scenarios);
 }
 
 SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::SuiteResult result,
@@ -42,6 +68,7 @@ SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::Su
   std::optional<suite::Comparison> comparison;
   if (baseline) {
     before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(place.baseline)});
+    caller.warn(other_inputs(before->folder, folder.staging()));
     comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
   }
   const suite::SuiteInFolder* beside = before ? &*before : nullptr;

@@ -2,9 +2,12 @@
 /// The end of a suite: its files. `app::suite` and `app::merge` share it.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/app/caller.h"
@@ -35,8 +38,19 @@ struct SuiteMade {
 /// The baseline of a place. \throws std::runtime_error if it cannot be read.
 std::optional<suite::SuiteResult> baseline_of(const SuitePlace& place);
 
+/// A warning if two suites have read different states of a file, such as a scene, so that a
+/// difference of their figures has that cause, too; empty if not. \param before, after folders.
+std::vector<std::string> other_inputs(const std::filesystem::path& before,
+                                      const std::filesystem::path& after);
+
 /// The folder of a detector's results, relative to the suite's folder.
 std::filesystem::path part_of(const std::string& detector, const std::string& own);
+
+/// Adds to the facts of a suite's provenance what differs between its parts.
+void add_part(nlohmann::ordered_json& facts, const std::string& shard, const suite::Runs& runs);
+
+/// The names of these facts.
+inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", "scenarios"};
 
 /// Writes suite.json, junit.xml, the report and so on, and commits the folder.
 /// \param folder has the runs, and for worlds their pictures.

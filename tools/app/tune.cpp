@@ -17,11 +17,10 @@
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
-#include "tools/files/sha256.h"
 #include "tools/input/input_file.h"
 #include "tools/input/message.h"
 #include "tools/suite/suite_result.h"
-#include "tools/tune/journal.h"
+#include "tools/tune/evaluations.h"
 #include "tools/tune/record.h"
 #include "tools/tune/search.h"
 #include "tools/tune/trials.h"
@@ -78,16 +77,15 @@ void require_different(const TuneRequest& request) {
   }
 }
 
-/// The facts that determine the figures of a journal.
-std::vector<tune::Fact> facts_of(const TuneRequest& request, const tune::Trials& trials,
-                                 const tune::SearchOptions& search) {
-  std::vector<tune::Fact> facts{
-      {"program", fmt::format("{}, SHA-256 {}", program_text(), program_sha256())},
-      {"recordings", fmt::format("SHA-256 {}", trials.digest())},
-      {"suites", about(request.suites, trials)},
-      {"settings", line_of(request.sets)}};
-  for (tune::Fact& fact : tune::facts_of(search)) facts.push_back(std::move(fact));
-  return facts;
+/// All that determines the figures of a search. The suites have been read.
+bench::Provenance provenance_of(const TuneRequest& request, const tune::Trials& trials,
+                                const tune::SearchOptions& search) {
+  bench::Provenance::Json facts{{"suites", about(request.suites, trials)},
+                                {"settings", request.sets},
+                                {"program", program_text()},
+                                {"program_sha256", program_sha256()}};
+  tune::add_facts(facts, search);
+  return bench::provenance_of(std::move(facts));
 }
 
 std::vector<std::string> learnt_keys() {
@@ -130,6 +128,11 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
                                            request.seed};
   require_different(request);
   const tune::Trials trials(request.suites);
+  const bench::Provenance provenance = provenance_of(request, trials, search_options);
+  if (const std::string what = bench::changed_since(provenance); !what.empty()) {
+    throw std::runtime_error(what +
+                             " it was read; wait until the process that writes to it has ended");
+  }
   std::optional<tune::Trials> others;
   if (!request.validate.empty()) others.emplace(request.validate);
 
@@ -137,11 +140,13 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
   fs::create_directories(out);
   const bench::FolderLock lock(out);
   if (!lock.is_held()) {
-    throw std::runtime_error(
-        fmt::format("{} {}; choose another folder with --out", out.string(),
-                    lock.is_of_another() ? "is in use by another lcs tune" : "cannot be locked"));
+    throw std::runtime_error(fmt::format(
+        "{} {}; choose another folder with --out", out.string(),
+        lock.is_of_another() ? "is in use by another lcs tune"
+                             : fmt::format("cannot be locked ({})",
+                                           std::generic_category().message(lock.problem()))));
   }
-  tune::Journal journal(out / tune::kJournalFile, facts_of(request, trials, search_options), keys);
+  tune::Evaluations known(out / tune::kEvaluationsFile, provenance, keys);
   bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
   bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
   tune::Found found;
@@ -149,12 +154,12 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
     const auto progress = caller.progress("tune", request.evaluations, "evaluations");
     found = tune::search(
         start, search_options,
-        [&](const Parameters& parameters) { return trials.worth(parameters, check); }, journal,
+        [&](const Parameters& parameters) { return trials.worth(parameters, check); }, known,
         [&](int done) { progress->show(done); });
   } catch (const Interrupted&) {
     throw Interrupted(
         fmt::format("interrupted; what was tried is in {}, and the same command goes on",
-                    (out / tune::kJournalFile).string()));
+                    (out / tune::kEvaluationsFile).string()));
   }
   std::vector<tune::Stated> stated{
       {about(request.suites, trials), found.worth_before, found.worth_after}};

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <opencv2/core/utility.hpp>
+#include <stdexcept>
+#include <string_view>
 
 #include "scenarios/shipped.h"
 #include "sim/simulation.h"
 #include "tools/app/commit.h"
-#include "tools/files/sha256.h"
-#include "tools/input/input_file.h"
+#include "tools/input/sha256.h"
 
 namespace lcs::app {
 
@@ -27,8 +29,14 @@ std::string version_line() {
 }
 
 std::string program_sha256() {
-  constexpr input::FileKind kProgram{input::kGibibyte, "install the program again"};
-  return bench::sha256(input::read_file(scenario::program(), kProgram));
+  const auto digest = input::sha256_of_file(std::filesystem::canonical(scenario::program()));
+  if (!digest) throw std::runtime_error("the program cannot be read; install it again");
+  return *digest;
+}
+
+bool is_of_a_commit() {
+  const std::string_view commit = LCS_COMMIT;
+  return commit != "unknown" && commit.find(',') == commit.npos;
 }
 
 std::string program_text() {

@@ -17,6 +17,10 @@ std::string version_line();
 /// the commit is "unknown".
 std::string program_text();
 
+/// Whether the commit alone says what this program does: it is known, and no file was changed
+/// since.
+bool is_of_a_commit();
+
 /// The SHA-256 of the running program's file.
 std::string program_sha256();
 

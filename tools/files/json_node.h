@@ -82,6 +82,7 @@ class JsonNode {
     return {*found, path};
   }
 
+  const Json& json() const { return json_; }
   bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
 
   /// Calls `use(node)` for every item of a list.

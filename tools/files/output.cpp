@@ -14,6 +14,7 @@
 #include <functional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "tools/files/written.h"
 #include "tools/input/inputs_read.h"
@@ -36,22 +37,17 @@ fs::path resolved(const fs::path& target) {
   return path;
 }
 
-/// Whether `path` is `folder` or lies in it. Both are normal and absolute.
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
-}
-
 /// All `Output` objects of this process.
 std::vector<const Output*>& under_way() {
   static std::vector<const Output*> all;
   return all;
 }
 
-/// The staging folder of a target is `TARGET.partial-PROCESS/`. It contains the marker, the folder
-/// "in" for the new result, and the folder "out" for the earlier result.
+/// The staging folder of a target is `TARGET.partial-PROCESS/`, or `TARGET.unfinished/` if it is
+/// kept. It contains the marker, the folder "in" for the new result, the folder "out" for the
+/// earlier result, and the folder "work" for what is no part of the result.
 constexpr std::string_view kPartial = ".partial-", kUnfinished = ".unfinished";
-constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out";
+constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out", kWork = "work";
 
 std::string marker_text(std::string_view folder_name) {
   return fmt::format("lcs writes its results here, and takes this folder away: {}\n", folder_name);
@@ -86,8 +82,8 @@ bool is_of_result(const fs::path& within, const fs::directory_entry& entry,
   const bool is_folder = type == fs::file_type::directory;
   if (!is_folder && type != fs::file_type::regular) return false;
   if (!is_folder && within.filename() == kRecordName) return true;
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return fits(within, is_folder, name); });
+  return std::ranges::any_of(
+      names, [&](const std::string& name) { return fits(within, is_folder, name); });
 }
 
 /// Whether an entry of a staging folder is this program's. The staging folder of a suite contains
@@ -99,29 +95,60 @@ bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
   for (const fs::path& name : within) {
     if (is_beside && name == kMarker)
       return entry.symlink_status().type() == fs::file_type::regular;
-    if (!is_beside || (name != kIn && name != kOut)) of_result /= name;
+    if (!is_beside || (name != kIn && name != kOut && name != kWork)) of_result /= name;
     is_beside = name.native().find(kPartial) != std::string::npos;
   }
   if (of_result.empty()) return entry.symlink_status().type() == fs::file_type::directory;
   return is_of_result(of_result, entry, names);
 }
 
-/// Removes this program's files from a staging folder, and the folder if it is empty then.
+/// Removes this program's files from a staging folder, and the folder if it is empty then. The
+/// marker stays until all of these files are gone, so that another process can finish.
 void remove_own(const fs::path& folder, const ResultNames& names) {
-  std::error_code ignored;  // files that cannot be removed stay
+  bool is_done = true;
+  std::error_code error;
+  const auto look = [&] { is_done = is_done && !std::exchange(error, {}); };
   std::vector<fs::path> own{folder};
   // Opens one folder at a time, as there may be no descriptors for more.
   for (std::size_t i = 0; i < own.size(); ++i) {
-    for (fs::directory_iterator entry(own[i], ignored), end; entry != end;
-         entry.increment(ignored)) {
+    if (!fs::is_directory(fs::symlink_status(own[i], error))) continue;
+    fs::directory_iterator entry(own[i], error);
+    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
       const fs::path within = entry->path().lexically_relative(folder);
       if (within != kMarker && is_of_staging(within, *entry, names)) own.push_back(entry->path());
     }
+    look();
   }
   // Backwards, as the contents of a folder come after it. The marker is removed last.
-  for (std::size_t i = own.size(); i-- > 1;) fs::remove(own[i], ignored);
-  fs::remove(folder / kMarker, ignored);
-  fs::remove(folder, ignored);
+  for (std::size_t i = own.size(); i-- > 1;) {
+    fs::remove(own[i], error);
+    if (error == std::errc::directory_not_empty) error.clear();  // it holds a file of the user
+    look();
+  }
+  if (!is_done) return;
+  fs::remove(folder / kMarker, error);
+  fs::remove(folder, error);
+}
+
+/// \return 0, or the error.
+int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
+  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+/// Finishes the moves of a process that was killed among them, or puts the earlier result back.
+void settle(const fs::path& own, const fs::path& target, const ResultNames& names, bool is_folder) {
+  if (is_folder) {
+    rename_by(own / kOut, target, RENAME_NOREPLACE);
+    return;
+  }
+  // The new file may be in its place already, and its record not yet.
+  const fs::path record = own / kIn / record_beside(target).filename();
+  if (difference(read_record(record), target.filename(), target).empty()) {
+    rename_by(record, record_beside(target), 0);
+  }
+  for (const std::string& name : names) {
+    rename_by(own / kOut / name, target.parent_path() / name, RENAME_NOREPLACE);
+  }
 }
 
 /// Whether the folder is empty, or has only the beginning of a marker, of a killed process.
@@ -138,11 +165,6 @@ bool is_just_begun(const fs::path& folder) {
   if (error || name.ends_with(kUnfinished)) return !error;
   const std::string process = name.substr(name.rfind(kPartial) + kPartial.size());
   return process.find_first_not_of("0123456789-") == std::string::npos;
-}
-
-/// \return 0, or the error.
-int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
-  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
 }
 
 void rename_or_fail(std::string_view what, const fs::path& from, const fs::path& to) {
@@ -192,9 +214,10 @@ void in_second_process(const std::function<void()>& work) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
-    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
-  is_held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+FolderLock::FolderLock(const fs::path& folder, bool is_shared)
+    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)),
+      problem_(file_ < 0 ? errno : 0) {
+  is_held_ = file_ >= 0 && (is_shared || ::flock(file_, LOCK_EX | LOCK_NB) == 0);
   is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
   is_possible_ = file_ < 0 || is_held_ || (errno != ENOSYS && errno != ENOTSUP && errno != ENOLCK);
   // Until it was locked, its holder may have removed it, and another have made one of its name.
@@ -219,13 +242,7 @@ void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_
   for (const fs::path& path : found) {
     const FolderLock lock(path);  // the process of the folder locks it before it writes the marker
     if (!lock.is_held() || !(has_marker(path) || is_just_begun(path))) continue;
-    if (is_folder) {
-      rename_by(path / kOut, target, RENAME_NOREPLACE);
-    } else {
-      for (const std::string& name : names) {
-        rename_by(path / kOut / name, target.parent_path() / name, RENAME_NOREPLACE);
-      }
-    }
+    settle(path, target, names, is_folder);
     remove_own(path, names);
   }
 }
@@ -239,7 +256,7 @@ fs::path output_path(const fs::path& named) {
     throw OutputError(
         fmt::format("{} is a link, which is not followed; name the place itself", named.string()));
   }
-  for (const fs::path& input : input::inputs_read()) {
+  for (const auto& [input, digest] : input::inputs_read()) {
     const fs::path read = fs::weakly_canonical(input, error);
     if (is_within(read, path)) {
       throw OutputError(fmt::format("{} {} {}, which is read; choose another place", named.string(),
@@ -289,8 +306,23 @@ struct Output::Move {
   }
 };
 
-Output::Output(const fs::path& target, ResultNames names, Unfinished unfinished)
-    : names_(std::move(names)), unfinished_(unfinished) {
+bool is_name_of(const fs::path& within, const ResultNames& names) {
+  return within.filename() == kRecordName ||
+         std::ranges::any_of(names,
+                             [&](const std::string& name) { return fits(within, false, name); });
+}
+
+std::vector<fs::path> folders_under_way() {
+  std::vector<fs::path> all;
+  for (const Output* output : under_way()) {
+    all.insert(all.end(), {output->own_, output->target_});
+  }
+  return all;
+}
+
+Output::Output(const fs::path& target, ResultNames names, Unfinished unfinished,
+               std::function<void()> wait)
+    : names_(std::move(names)), unfinished_(unfinished), wait_(std::move(wait)) {
   target_ = output_path(target);
   prepare();
 }
@@ -320,9 +352,9 @@ void Output::prepare() {
         fmt::format("{} and {}: results would go into each other; give each a place of its own",
                     other->target_.string(), target_.string()));
   }
+  remove_abandoned(target_, names_, is_folder());
   require_replaceable();
   make_parents();
-  remove_abandoned(target_, names_, is_folder());
   try {
     make_staging();
   } catch (const OutputError&) {
@@ -350,8 +382,19 @@ void Output::empty() {
 }
 
 void Output::remove_all_made() const {
-  if (lock_) remove_own(own_, names_);
   std::error_code ignored;  // a destructor cannot report it; `remove` keeps folders with contents
+  if (unfinished_ == Unfinished::shared) {
+    for (const std::string_view folder : {kIn, kWork}) fs::remove(own_ / folder, ignored);
+    const bool is_empty = !fs::exists(own_ / kIn, ignored) && !fs::exists(own_ / kWork, ignored);
+    if (is_empty) remove_own(own_, names_);
+  } else if (lock_) {
+    try {
+      settle(own_, target_, names_,
+             is_folder());  // the process of `commit_all` may have been killed
+      remove_own(own_, names_);
+    } catch (const std::exception&) {  // the next command does it
+    }
+  }
   std::for_each(made_parents_.rbegin(), made_parents_.rend(),
                 [&](const fs::path& parent) { fs::remove(parent, ignored); });
 }
@@ -397,20 +440,17 @@ void Output::require_own_folder(const fs::path& folder, fs::file_type type) cons
         target_.string()));
   }
   const WrittenFiles written = read_record(folder / kRecordName);
-  error.clear();
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string within = entry->path().lexically_relative(folder);
+  for (const fs::directory_entry& entry : entries_below(folder)) {
+    const std::string within = entry.path().lexically_relative(folder);
     std::string what = "is not a file of such a result";
-    if (is_of_result(within, *entry, names_)) {
-      if (within == kRecordName || entry->is_directory()) continue;
-      what = difference(written, within, entry->path());
+    if (is_of_result(within, entry, names_)) {
+      if (within == kRecordName || entry.is_directory()) continue;
+      what = difference(written, within, entry.path());
     }
     if (what.empty()) continue;
     throw OutputError(
         fmt::format("{}: {} {}, and would be lost; {}", target_.string(), within, what, kAnother));
   }
-  if (error) fail_to("read", target_, error);
 }
 
 std::vector<Output::Move> Output::moves() const {
@@ -435,49 +475,78 @@ void Output::make_parents() {
   });
 }
 
-/// Takes the first free name: another process may have had the same number, or the user may have a
-/// file of that name. Tries again if another process took the new folder for an abandoned one, and
-/// may have removed it, before it was locked.
-void Output::make_staging() {
+/// Takes a name beside the target for `own_`, and its lock. Leaves `lock_` empty if another process
+/// took the new folder for an abandoned one, and may have removed it, before it was locked.
+void Output::take_free_name(int attempt) {
+  own_ = target_;
+  own_ += fmt::format("{}{}", kPartial, ::getpid());
+  if (attempt > 0) own_ += fmt::format("-{}", attempt);
   std::error_code error;
-  for (int attempt = 0; !lock_; ++attempt) {
-    own_ = target_;
-    if (unfinished_ == Unfinished::kept) {
-      own_ += kUnfinished;
-      fs::create_directory(own_, error);
-      lock_.emplace(own_);
-      if (lock_->is_of_another()) {
-        throw OutputError(
-            fmt::format("{}: another process writes it; wait for it, or choose "
-                        "another place",
-                        target_.string()));
-      }
-      if (!lock_->is_held() && lock_->is_possible()) lock_.reset();
-      if (lock_ && !has_marker(own_) && !is_just_begun(own_)) {
-        throw OutputError(
-            fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
-      }
-      // A process was killed while it moved its result: before the end, or after.
-      rename_by(own_ / kOut, target_, RENAME_NOREPLACE);
-      if (lock_ && fs::exists(own_ / kOut)) {
-        remove_own(own_, names_);
-        lock_.reset();
-      }
-    } else {
-      own_ += fmt::format("{}{}", kPartial, ::getpid());
-      if (attempt > 0) own_ += fmt::format("-{}", attempt);
-      if (fs::create_directory(own_, error)) lock_.emplace(own_);
-      if (lock_ && (lock_->is_of_another() || !fs::exists(own_))) lock_.reset();
+  // Another process may have had the same number, or the user may have a file of that name.
+  if (fs::create_directory(own_, error)) lock_.emplace(own_);
+  if (error && error != std::errc::file_exists) fail_to("create", own_, error);
+  if (lock_ && (lock_->is_of_another() || !fs::exists(own_))) lock_.reset();
+}
+
+/// Takes TARGET.unfinished for `own_`, and its lock. Leaves `lock_` empty if another process has
+/// just removed the folder, or has it and is waited for.
+void Output::take_unfinished() {
+  own_ = target_;
+  own_ += kUnfinished;
+  std::error_code error;
+  fs::create_directory(own_, error);
+  if (error) fail_to("create", own_, error);
+  lock_.emplace(own_, unfinished_ == Unfinished::shared);
+  if (lock_->is_of_another()) {
+    if (!wait_) {
+      throw OutputError(fmt::format(
+          "{}: another process writes it; wait for it, or choose another place", target_.string()));
     }
-    if (error) fail_to("create", own_, error);
+    wait_();
+  }
+  if (lock_->problem() == ENOENT || (!lock_->is_held() && lock_->is_possible())) {
+    return lock_.reset();
+  }
+  if (lock_->problem() != 0 && lock_->problem() != ELOOP && lock_->problem() != ENOTDIR) {
+    fail_to("use", own_, lock_->problem());
+  }
+  if (lock_->problem() != 0 || (!has_marker(own_) && !is_just_begun(own_))) {
+    throw OutputError(
+        fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
+  }
+  if (unfinished_ == Unfinished::shared) return;
+  // A process was killed while it moved its result: before the end, or after.
+  rename_by(own_ / kOut, target_, RENAME_NOREPLACE);
+  if (fs::exists(own_ / kOut)) {
+    remove_own(own_, names_);
+    lock_.reset();
+  }
+}
+
+void Output::make_staging() {
+  constexpr int kMostAttempts = 1000;
+  for (int attempt = 0; !lock_; ++attempt) {
+    if (attempt == kMostAttempts) {
+      throw OutputError(fmt::format("{} cannot be made or locked; {}", own_.string(), kAnother));
+    }
+    unfinished_ == Unfinished::removed ? take_free_name(attempt) : take_unfinished();
   }
   write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
   is_kept_ = fs::exists(staging_);
+  std::error_code error;
   fs::create_directory(staging_, error);
   if (!error && !is_folder()) fs::create_directory(own_ / kOut, error);
   if (error) fail_to("create", staging_, error);
   if (!is_folder()) staging_ /= names_.front();
+}
+
+fs::path Output::work() const {
+  const fs::path folder = own_ / kWork;
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) fail_to("create", folder, error);
+  return folder;
 }
 
 void Output::commit() {
@@ -500,7 +569,10 @@ void put_in_place(std::span<Output* const> outputs) {
       move->first.take_back(move->second);
     throw;
   }
-  for (const Output* output : outputs) remove_own(output->own_, output->names_);
+  for (const Output* output : outputs) {
+    flush_to_disk(output->target_.parent_path());
+    remove_own(output->own_, output->names_);
+  }
 }
 
 void commit_all(std::span<Output* const> outputs) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,7 +19,8 @@ namespace lcs::bench {
 class [[nodiscard]] FolderLock {
  public:
   /// Does not wait if another process holds the lock.
-  explicit FolderLock(const std::filesystem::path& folder);
+  /// \param is_shared opens the folder without a lock.
+  explicit FolderLock(const std::filesystem::path& folder, bool is_shared = false);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -27,9 +29,12 @@ class [[nodiscard]] FolderLock {
   bool is_of_another() const { return is_of_another_; }
   /// False if the file system has no such locks. Then nobody can hold one.
   bool is_possible() const { return is_possible_; }
+  /// The error by which the folder cannot be opened, such as ENOENT, or ELOOP for a link; 0 if it
+  /// was opened.
+  int problem() const { return problem_; }
 
  private:
-  int file_ = -1;
+  int file_ = -1, problem_ = 0;
   bool is_held_ = false;
   bool is_of_another_ = false;
   bool is_possible_ = true;
@@ -38,6 +43,9 @@ class [[nodiscard]] FolderLock {
 /// Paths within a folder of results. A name may start or end with `*`, which matches anything:
 /// "runs/*/seed-*/metrics.json".
 using ResultNames = std::vector<std::string>;
+
+/// Whether a file of a folder of results may have this path in it.
+bool is_name_of(const std::filesystem::path& within, const ResultNames& names);
 
 /// Removes the staging folders that killed processes left beside `target`. They have a marker. Only
 /// files of these names are removed from them. If the process was killed while it replaced an
@@ -60,7 +68,8 @@ enum class Overwrite {
 /// What remains of a folder of results if its command ends before `commit`.
 enum class Unfinished {
   removed,
-  kept,  ///< TARGET.unfinished, after `Output::keep`: the next command goes on there
+  kept,    ///< TARGET.unfinished, after `Output::keep`: the next command goes on there
+  shared,  ///< likewise, for one of several processes that fill it at once, and never commit it
 };
 
 /// Results are written into a staging folder beside the target and finally moved to the target.
@@ -71,9 +80,10 @@ class Output {
   /// \param names of all files that a result can have. A folder is not replaced if it holds any
   ///   other file, or a file that this program did not write, or that was changed since.
   /// \throws OutputError, also as `output_path`, and for the working folder and those above it.
-  ///   With `Unfinished::kept` also if another process works on the target.
+  /// \param wait called again and again while another process works on the target, with
+  ///   `Unfinished::kept`; it may throw. If it is absent, such a process is an OutputError.
   Output(const std::filesystem::path& target, ResultNames names,
-         Unfinished unfinished = Unfinished::removed);
+         Unfinished unfinished = Unfinished::removed, std::function<void()> wait = {});
   /// A single file. Terminals, pipes that are read, and other character devices such as /dev/null
   /// are written to directly.
   Output(const std::filesystem::path& target, Overwrite overwrite);
@@ -85,6 +95,9 @@ class Output {
 
   /// Write the results here: into an existing folder, or as a new file.
   const std::filesystem::path& staging() const { return staging_; }
+  /// A folder for what is no part of the result, but is kept and removed with the staging folder.
+  /// \throws OutputError
+  std::filesystem::path work() const;
   /// Keeps the staging folder from now on, also if this command does not commit it. What an earlier
   /// command kept is kept anyway.
   void keep() { is_kept_ = true; }
@@ -100,6 +113,7 @@ class Output {
   struct Move;  ///< a new file or folder, its target, and a path for the earlier one
   friend void commit_all(std::span<Output* const> outputs);
   friend void put_in_place(std::span<Output* const> outputs);
+  friend std::vector<std::filesystem::path> folders_under_way();
 
   bool is_folder() const { return overwrite_ == std::nullopt; }
   void prepare();
@@ -110,11 +124,14 @@ class Output {
   std::vector<Move> moves() const;
   void make_parents();
   void make_staging();
+  void take_free_name(int attempt);
+  void take_unfinished();
   void remove_all_made() const;
 
   ResultNames names_;
   std::optional<Overwrite> overwrite_;  ///< nullopt for a folder
   Unfinished unfinished_ = Unfinished::removed;
+  std::function<void()> wait_;
   std::filesystem::path target_;
   std::filesystem::path own_;      ///< beside the target: the marker, and `staging_`
   std::filesystem::path staging_;  ///< in `own_`
@@ -125,6 +142,9 @@ class Output {
   bool is_kept_ = false;
   bool committed_ = false;
 };
+
+/// The targets and staging folders of all outputs of this process.
+std::vector<std::filesystem::path> folders_under_way();
 
 /// Moves all outputs of a command to their targets, or none of them. If there are several, a second
 /// process moves them, so that a signal or `kill -9` of this process does not interrupt the moves.

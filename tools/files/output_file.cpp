@@ -38,18 +38,46 @@ void fail_to(std::string_view verb, const std::filesystem::path& path, int error
   fail_to(verb, path, std::error_code(error, std::generic_category()));
 }
 
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+bool is_inner(const std::filesystem::path& path) {
+  return !path.empty() && path.is_relative() &&
+         std::ranges::none_of(path, [](const auto& name) { return name == "." || name == ".."; });
+}
+
 std::string beginning(const std::filesystem::path& file, std::size_t bytes) {
   std::string text;
   const int opened = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (opened < 0 && errno != ENOENT && errno != ENOTDIR && errno != ELOOP && errno != ENXIO) {
+    fail_to("read", file, errno);
+  }
   if (opened < 0) return text;
   struct stat status = {};
+  int error = 0;
   if (::fstat(opened, &status) == 0 && S_ISREG(status.st_mode)) {
     text.resize(std::min(bytes, static_cast<std::size_t>(status.st_size)));
     const ssize_t got = ::read(opened, text.data(), text.size());
+    if (got < 0) error = errno;
     text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   }
   ::close(opened);
+  if (error != 0) fail_to("read", file, error);
   return text;
+}
+
+std::vector<std::filesystem::directory_entry> entries_below(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::directory_entry> entries;
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    entries.push_back(*entry);
+  }
+  if (error) fail_to("read", folder, error);
+  return entries;
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path)
@@ -98,10 +126,38 @@ void TextFile::close() {
   file_.close();
 }
 
+void copy_bytes(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto fail = [&](int error) {
+    throw std::runtime_error(fmt::format("cannot read {}: {}; name another", from.string(),
+                                         std::generic_category().message(error)));
+  };
+  const int file = ::open(from.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) fail(errno);
+  const std::unique_ptr<const int, void (*)(const int*)> closer(
+      &file, [](const int* opened) { ::close(*opened); });
+  OutputFile copy(to);
+  std::string block(1 << 20, '\0');
+  for (ssize_t got = 0; (got = ::read(file, block.data(), block.size())) != 0;) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(errno);
+    copy.write({block.data(), static_cast<std::size_t>(got)});
+  }
+  copy.close();
+}
+
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::error_code error;
   std::filesystem::create_hard_link(from, to, error);
-  if (error) std::filesystem::copy_file(from, to);
+  if (error) copy_bytes(from, to);
+}
+
+void flush_to_disk(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  const bool is_there = file >= 0;
+  // A file system that cannot flush says EINVAL.
+  const int error = !is_there || (::fsync(file) != 0 && errno != EINVAL) ? errno : 0;
+  if (is_there) ::close(file);
+  if (error != 0) fail_to("write", path, error);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

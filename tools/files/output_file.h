@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace lcs::bench {
 
@@ -23,8 +24,19 @@ class OutputError : public std::runtime_error {
                           const std::error_code& error);
 [[noreturn]] void fail_to(std::string_view verb, const std::filesystem::path& path, int error);
 
-/// The first `bytes` bytes of a regular file; "" for anything else, including a link.
+/// Whether `path` is `folder` or lies in it. Both are normal, and absolute or relative to the same.
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Whether a path that stands in a file of others stays in the folder that it is relative to: no
+/// root, no ".." and no ".".
+bool is_inner(const std::filesystem::path& path);
+
+/// The first `bytes` bytes of a regular file; "" if there is none, also for a link.
+/// \throws OutputError for a file that cannot be read.
 std::string beginning(const std::filesystem::path& file, std::size_t bytes);
+
+/// All files and folders in a folder and below. \throws OutputError
+std::vector<std::filesystem::directory_entry> entries_below(const std::filesystem::path& folder);
 
 /// A file, created or emptied on construction. Only `close` ensures that all of it was written.
 class OutputFile {
@@ -67,9 +79,15 @@ class TextFile {
   std::string pending_;  ///< not yet compressed
 };
 
-/// Makes `to` the same file as `from`, or a copy on another file system.
-/// \throws std::filesystem::filesystem_error
+/// Copies a regular file, not through a link.
+/// \throws std::runtime_error for a file that cannot be read; OutputError
+void copy_bytes(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Makes `to` the same file as `from`, or a copy on another file system. \throws as `copy_bytes`
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Waits until a file's or folder's content is on the disk. \throws OutputError
+void flush_to_disk(const std::filesystem::path& path);
 
 /// Writes a whole file. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/files/output_file.h"
-#include "tools/files/sha256.h"
+#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -51,8 +51,8 @@ std::string text_of(const WrittenFiles& files) {
 }
 
 std::string digest_of(const fs::path& file) {
-  const auto digest = sha256_of_file(file);
-  if (!digest) throw OutputError(fmt::format("cannot read {} back; try again", file.string()));
+  const auto digest = input::sha256_of_file(file);
+  if (!digest) throw OutputError(file.string() + " is gone; try again");
   return *digest;
 }
 
@@ -76,7 +76,9 @@ WrittenFiles read_record(const fs::path& record) {
 void write_record_of_folder(const fs::path& folder) {
   std::vector<std::string> names;
   WrittenFiles files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (const fs::directory_entry& entry : entries_below(folder)) {
+    if (entry.path() == folder / kRecordName) continue;  // of a commit that failed
+    flush_to_disk(entry.path());
     if (entry.is_directory()) continue;
     names.push_back(entry.path().lexically_relative(folder).string());
     if (entry.path().filename() != kRecordName) continue;
@@ -90,16 +92,21 @@ void write_record_of_folder(const fs::path& folder) {
     if (!files.contains(name)) files.emplace(name, digest_of(folder / name));
   }
   write_file(folder / kRecordName, text_of(files));
+  flush_to_disk(folder / kRecordName);
+  flush_to_disk(folder);
 }
 
 void write_record_of_file(const fs::path& file) {
   write_file(record_beside(file), line_of(digest_of(file), file.filename().string()));
+  for (const fs::path& written : {file, record_beside(file), file.parent_path()}) {
+    flush_to_disk(written);
+  }
 }
 
 std::string difference(const WrittenFiles& written, const std::string& name, const fs::path& file) {
   const auto record = written.find(name);
   if (record == written.end()) return "is not a file that lcs has written";
-  return sha256_of_file(file) == record->second ? "" : "was changed since lcs wrote it";
+  return input::sha256_of_file(file) == record->second ? "" : "was changed since lcs wrote it";
 }
 
 std::string first_difference(const fs::path& folder) {

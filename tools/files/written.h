@@ -22,9 +22,10 @@ using WrittenFiles = std::map<std::string, std::string>;
 /// Reads a record; empty if it is missing or invalid.
 WrittenFiles read_record(const std::filesystem::path& record);
 
-/// Writes the record of all files in a folder and below. \throws OutputError
+/// Writes the record of all files in a folder and below, and waits until all are on the disk.
+/// \throws OutputError
 void write_record_of_folder(const std::filesystem::path& folder);
-/// Writes the record of one file, beside it. \throws OutputError
+/// Writes the record of one file, beside it, and waits likewise. \throws OutputError
 void write_record_of_file(const std::filesystem::path& file);
 
 /// The fault of a file, such as "was changed since lcs wrote it"; "" if its bytes match the record.

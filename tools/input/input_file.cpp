@@ -32,7 +32,6 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind)
 
 InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where)
     : file_(file.string()), kind_(kind), where_(where), is_gzip_(file.extension() == ".gz") {
-  note_input(file);
   struct stat status = {};
   // Check before opening, too: opening alone wakes a pipe's writer, or moves a tape.
   if (::stat(file_.c_str(), &status) != 0) fail(errno);
@@ -43,6 +42,7 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, co
   try {
     if (::fstat(descriptor_, &status) != 0) fail(errno);
     check(status);
+    note_input(file);
     if (is_gzip_) buffer_.reserve(static_cast<std::size_t>(status.st_size) + kBlock);
   } catch (...) {
     ::close(descriptor_);

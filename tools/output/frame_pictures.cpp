@@ -72,7 +72,7 @@ FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_p
 }
 
 void FramePictures::copy_to(const std::filesystem::path& file) const {
-  std::filesystem::copy_file(path_, file);
+  copy_bytes(path_, file);
 }
 
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {

@@ -42,7 +42,7 @@ class FramePictures {
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return starts_.size() - 1; }
 
-  /// \throws std::filesystem::filesystem_error
+  /// \throws as `copy_bytes`
   void copy_to(const std::filesystem::path& file) const;
 
  private:

@@ -123,7 +123,7 @@ Metrics Result::finish(const std::optional<sim::Warnings>& world) {
 void Result::copy_truth(const std::filesystem::path& folder) {
   if (!writer_) return;
   const std::filesystem::path theirs = stored(folder, kTruthFile);
-  std::filesystem::copy_file(theirs, folder_.staging() / theirs.filename());
+  copy_bytes(theirs, folder_.staging() / theirs.filename());
 }
 
 void Result::share_truth(const Result& other) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tools/files/output.h"
+#include "tools/files/provenance.h"
 #include "tools/output/frame_painter.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/output/video.h"
@@ -21,9 +22,6 @@
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
-
-/// How a folder of results was made; written by the commands (tools/app/how_made.h).
-inline constexpr const char* kHowMadeFile = "run.json";
 
 /// All files that the folder of a run may contain.
 ResultNames result_files();
@@ -84,11 +82,11 @@ class Result {
   const std::vector<Warned>& warned() const { return warned_; }
 
   /// Copies the truth of the same frames from the folder of an earlier run. Before `finish`, if
-  /// there are events. \throws std::filesystem::filesystem_error
+  /// there are events. \throws as `copy_bytes`
   void copy_truth(const std::filesystem::path& folder);
 
   /// After `finish` of both: takes the truth of the same frames from `other`, as one file for both.
-  /// On another file system as a copy. \throws std::filesystem::filesystem_error
+  /// On another file system as a copy. \throws as `copy_bytes`
   void share_truth(const Result& other);
 
   Output& output() { return folder_; }

@@ -7,15 +7,14 @@
 #include <deque>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "sim/simulation.h"
 #include "tools/files/output_file.h"
-#include "tools/files/sha256.h"
 #include "tools/input/document.h"
+#include "tools/input/sha256.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"
@@ -211,54 +210,32 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
-/// Hash of an input file of the sequence.
-std::string sha256_of(const std::filesystem::path& file) {
-  return bench::sha256(read_file(file));
-}
-
-std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
+bench::Provenance::Json facts_of(const scenario::Scenario& scenario,
+                                 const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
-  nlohmann::ordered_json plan = {
-      {"scenario", scenario.name},
-      {"scenario_sha256", sha256_of(scenario.file)},
-      {"scene_sha256", sha256_of(scenario.scene)},
-      {"set", options.sets},
-      {"seed", scenario.seed},
-      {"frames", scenario.frames},
-      {"formats", options.formats},
-      {"program", options.program},
-      {"mujoco", versions.mujoco},
+  bench::Provenance::Json facts = {
+      {"scenario", scenario.name},        {"set", options.sets},        {"seed", scenario.seed},
+      {"frames", scenario.frames},        {"formats", options.formats}, {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},
   };
-  if (std::ranges::count(options.formats, "mcap") > 0) plan["rosbags"] = bag_library();
-  if (std::ranges::count(options.formats, "dsec") > 0) plan["h5py"] = hdf5_library();
-  if (scenario.ego.drive == scenario::Drive::own) {
-    plan["rover_sha256"] = sha256_of(scenario.ego.drive_file);
-  }
-  for (const scenario::Actor& actor : scenario.actors) {
-    if (actor.body || actor.shape != scenario::Shape::own) continue;
-    plan["shape_sha256"][actor.name] = sha256_of(actor.shape_file);
-  }
-  return plan.dump();
+  facts.update(options.program);
+  if (std::ranges::count(options.formats, "mcap") > 0) facts["rosbags"] = bag_library();
+  if (std::ranges::count(options.formats, "dsec") > 0) facts["h5py"] = hdf5_library();
+  return facts;
 }
 
 sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                              Journal& journal, FrameRange range,
+                              SequenceFolder& folder, FrameRange range,
                               const std::function<void(int)>& on_frame) {
   std::set<int> missing;
   for (int k = range.first; k < range.last; ++k) {
-    if (!journal.is_whole(k)) missing.insert(k);
+    if (!folder.is_whole(k)) missing.insert(k);
   }
   int whole = range.last - range.first - static_cast<int>(missing.size());
   on_frame(whole);
   if (missing.empty()) return {};
 
   Rig rig(scenario);
-  std::vector<std::filesystem::path> later{kManifestFile};
-  for (const GrowingDocument& document : documents_of(rig, options)) {
-    later.emplace_back(document.path());
-  }
-  journal.require_unwritten(later, *missing.begin());
   std::vector<FrameMaker> makers;
   for (const SequenceInfo& info : rig.infos()) makers.emplace_back(info, options);
   std::vector<sim::Observation> last;  // until its next frame is simulated
@@ -269,7 +246,7 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
     for (std::size_t i = 0; i < makers.size(); ++i) {
       makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
     }
-    journal.add(now.front().index, output, checks);
+    folder.add(now.front().index, output, checks);
     on_frame(++whole);
   };
   for (int k = *missing.begin(); k > 0; --k) rig.skip();
@@ -294,16 +271,16 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
 }
 
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
-                                         const GenerateOptions& options, Journal& journal) {
+                                         const GenerateOptions& options, SequenceFolder& folder) {
   const Rig rig(scenario);  // for mounting and objects
   std::vector<GrowingDocument> documents = documents_of(rig, options);
   Agreements checks;
   std::vector<FileRecord> files;
   for (int k = 0; k < scenario.frames; ++k) {
-    FrameRecordEntry record = journal.read(k);
-    std::move(record.files.begin(), record.files.end(), std::back_inserter(files));
-    for (const auto& [name, agreement] : record.checks) checks[name].add(agreement);
-    for (GrowingDocument& document : documents) document.add(record.rows);
+    const FrameEntry& entry = folder.read(k);
+    std::ranges::copy(entry.files, std::back_inserter(files));
+    for (const auto& [name, agreement] : entry.checks) checks[name].add(agreement);
+    for (GrowingDocument& document : documents) document.add(entry.rows);
   }
   std::vector<std::string> notes;
   const scenario::Imu& imu = scenario.imu;
@@ -318,29 +295,25 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
     if (document.path() == kBagFile || document.path().ends_with(kDsecFile)) {
-      const std::filesystem::path folder = std::filesystem::path(document.path()).parent_path();
-      std::ranges::move(journal.add_folder(folder,
-                                           [&](const std::filesystem::path& out) {
-                                             const auto rows = out.parent_path() / "rows";
-                                             bench::write_file(rows, text);
-                                             if (document.path() == kBagFile) {
-                                               write_bag(rows, journal.folder(), out);
-                                             } else {
-                                               write_hdf5(rows, out);
-                                             }
-                                           }),
+      std::ranges::move(folder.add_folder(std::filesystem::path(document.path()).parent_path(),
+                                          [&](const std::filesystem::path& out) {
+                                            const auto rows = out.parent_path() / "rows";
+                                            bench::write_file(rows, text);
+                                            document.path() == kBagFile
+                                                ? write_bag(rows, folder.staging(), out)
+                                                : write_hdf5(rows, out);
+                                          }),
                         std::back_inserter(files));
       continue;
     }
-    journal.write(document.path(), text);
-    files.push_back({document.path(), text.size(), bench::sha256(text)});
+    folder.write(document.path(), text);
+    files.push_back({document.path(), text.size(), input::sha256(text)});
     if (document.is_empty()) {
       notes.push_back(
           fmt::format("{} is empty: there is nothing to tell in any frame", document.path()));
     }
   }
-  journal.write(kManifestFile, manifest_text(journal.plan(), checks, std::move(files)));
-  journal.close();
+  folder.finish(checks, std::move(files));
   for (const auto& [name, agreement] : checks) {
     notes.push_back(fmt::format("checked {}: at most {:.2g} over {} comparisons", name,
                                 agreement.worst, agreement.compared));

@@ -9,7 +9,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/world/warnings.h"
-#include "tools/sequence/journal.h"
+#include "tools/sequence/sequence_folder.h"
 
 namespace lcs::sequence {
 
@@ -25,11 +25,13 @@ FrameRange part_of(int count, int i, int n);
 struct GenerateOptions {
   std::vector<std::string> formats;  ///< by name
   std::vector<std::string> sets;     ///< overrides that the scenario was loaded with
-  std::string program;               ///< version and commit of this program
+  bench::Provenance::Json program;   ///< facts: version and commit of this program
 };
 
-/// Everything that determines the bytes of a sequence, as a JSON object. Starts GL for its version.
-std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& options);
+/// The settings and versions that determine the bytes of a sequence, beside the files that are
+/// read. Starts GL for its version.
+bench::Provenance::Json facts_of(const scenario::Scenario& scenario,
+                                 const GenerateOptions& options);
 
 /// Renders and writes the incomplete frames of a range.
 /// \param on_frame called with the number of complete frames of the range; an exception from it
@@ -37,13 +39,13 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
 /// \return the simulation's warnings up to the last missing frame; empty if none was missing.
 /// \throws TruthError, sim::PhysicsError, bench::OutputError
 sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                              Journal& journal, FrameRange range,
+                              SequenceFolder& folder, FrameRange range,
                               const std::function<void(int)>& on_frame);
 
-/// Writes the files that need all frames, the manifest last, and closes the journal.
+/// Writes the files that need all frames, and moves the sequence to its target.
 /// \return readable lines: the sequence's contents, and its empty files.
 /// \throws bench::OutputError; std::runtime_error if a frame is incomplete.
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
-                                         const GenerateOptions& options, Journal& journal);
+                                         const GenerateOptions& options, SequenceFolder& folder);
 
 }  // namespace lcs::sequence

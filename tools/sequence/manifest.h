@@ -3,32 +3,39 @@
 /// files. It is written last.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "tools/sequence/journal.h"
+#include "tools/files/provenance.h"
+#include "tools/sequence/self_check.h"
 
 namespace lcs::sequence {
 
 inline constexpr const char* kManifestFile = "manifest.json";
 
-/// \param plan as for `Journal`.
-std::string manifest_text(const std::string& plan, const Agreements& checks,
+struct FileRecord {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+/// Agreements by the name of what was compared, as "flow_px".
+using Agreements = std::map<std::string, Agreement>;
+
+std::string manifest_text(const bench::Provenance& plan, const Agreements& checks,
                           std::vector<FileRecord> files);
 
-/// The JSON of a plan, or of a manifest. \throws input::Error
-nlohmann::json read_plan(const std::filesystem::path& file);
+/// A provenance in a file of its own, or in a manifest. \throws input::Error
+///@{
+bench::Provenance read_provenance(const std::filesystem::path& file);
+bench::Provenance provenance_in(const std::filesystem::path& manifest);
+///@}
 
-/// The plan of a finished sequence; not an object if the file is not a manifest. \throws as above.
-nlohmann::json plan_in_manifest(const std::filesystem::path& manifest);
-
-/// The paths of the files of a finished sequence, without the manifest. \throws as `damage`.
+/// The paths of the files of a finished sequence, without the manifest. \throws input::Error, also
+/// for a path that leads out of the sequence.
 std::vector<std::string> files_in_manifest(const std::filesystem::path& manifest);
-
-/// Missing or changed files of a sequence, each with its fault.
-/// \throws std::runtime_error for an unreadable manifest.
-std::vector<std::string> damage(const std::filesystem::path& folder);
 
 }  // namespace lcs::sequence

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -12,51 +11,19 @@
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
-namespace {
-
-/// \throws std::runtime_error
-void require_same(const SuiteInFolder& first, const SuiteInFolder& other) {
-  const SuiteResult &a = first.suite, &b = other.suite;
-  const auto require = [&](bool is_same, const std::string& what, const std::string& one,
-                           const std::string& two) {
-    if (is_same) return;
-    throw std::runtime_error(
-        fmt::format("{} and {} are no parts of one suite: {} differ{}", first.folder.string(),
-                    other.folder.string(), what,
-                    one.empty() && two.empty() ? "" : fmt::format(", '{}' and '{}'", one, two)));
-  };
-  const auto texts = [](const std::vector<std::string>& all) {
-    return fmt::format("{}", fmt::join(all, ", "));
-  };
-  require(a.detector == b.detector, "the detectors", a.detector, b.detector);
-  require(a.sets == b.sets, "the settings", texts(a.sets), texts(b.sets));
-  require(a.version == b.version, "the versions", a.version, b.version);
-  require(a.recorded == b.recorded, "the recordings", a.recorded, b.recorded);
-  require(a.beside == b.beside, "the detectors beside", texts(a.beside), texts(b.beside));
-  require(a.split == b.split, "the splits", a.split, b.split);
-  require(a.part_of->shard.parts == b.part_of->shard.parts, "the numbers of parts",
-          std::to_string(a.part_of->shard.parts), std::to_string(b.part_of->shard.parts));
-  require(a.part_of->whole == b.part_of->whole, "the scenarios and seeds of the whole", "", "");
-}
-
-}  // namespace
 
 SuiteResult merge(std::span<const SuiteInFolder> parts) {
-  std::map<std::string, std::pair<std::string, const SuiteInFolder*>> digests;
   for (const SuiteInFolder& part : parts) {
     if (!part.suite.part_of) {
       throw std::runtime_error(
           fmt::format("{} is a whole suite, no part of one; lcs suite --shard I/N makes parts",
                       part.folder.string()));
     }
-    require_same(parts.front(), part);
-    for (const auto& [name, digest] : part.suite.part_of->scenario_sha256) {
-      const auto known = digests.emplace(name, std::pair(digest, &part)).first->second;
-      if (known.first == digest) continue;
-      throw std::runtime_error(
-          fmt::format("{} and {} are no parts of one suite: the files of the scenario {} differ",
-                      known.second->folder.string(), part.folder.string(), name));
-    }
+    const PartOf &first = *parts.front().suite.part_of, &other = *part.suite.part_of;
+    if (first.whole == other.whole && first.shard.parts == other.shard.parts) continue;
+    throw std::runtime_error(fmt::format(
+        "{} and {} are no parts of one suite: the scenarios, seeds or numbers of parts differ",
+        parts.front().folder.string(), part.folder.string()));
   }
   const SuiteResult& first = parts.front().suite;
   SuiteResult whole = first;

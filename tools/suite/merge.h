@@ -12,8 +12,9 @@ namespace lcs::suite {
 /// The whole suite, as `lcs suite` without `--shard` gives it, with runs in the order of its plan.
 /// The runs' folders stay as in the parts.
 /// \param parts of one detector, at least one.
-/// \throws std::runtime_error that names the folders, if a suite is no part, the parts differ in
-///   their detector, settings, program, frames or plan, or runs are missing or there twice.
+/// Their provenances (tools/files/provenance.h) agree: the caller has compared them.
+/// \throws std::runtime_error that names the folders, if a suite is no part, the parts are of
+///   different wholes, or runs are missing or there twice.
 SuiteResult merge(std::span<const SuiteInFolder> parts);
 
 }  // namespace lcs::suite

@@ -78,15 +78,19 @@ Json to_json(const ScenarioResult& scenario) {
 Json to_json(const PartOf& part) {
   Json whole = Json::array();
   for (const auto& [name, seeds] : part.whole) whole.push_back({{"name", name}, {"seeds", seeds}});
-  return {{"part", part.shard.part},
-          {"parts", part.shard.parts},
-          {"whole", whole},
-          {"scenario_sha256", part.scenario_sha256}};
+  return {{"part", part.shard.part}, {"parts", part.shard.parts}, {"whole", whole}};
 }
 
 // ---- Reading
 
 using Node = bench::JsonNode;
+
+/// A text that names a folder or file of the suite.
+std::string name_of(const Node& node) {
+  std::string name = node.text();
+  node.require(bench::is_inner(name) && name.find('/') == name.npos, "a name without '/'");
+  return name;
+}
 
 Outcome outcome_of(const Node& node) {
   const auto found = std::find(kOutcomes.begin(), kOutcomes.end(), node.text());
@@ -119,6 +123,8 @@ RunResult run_of(const Node& node) {
   if (node.has("command")) run.command = node["command"].text();
   run.error = node["error"].text();
   run.folder = node["folder"].text();
+  node["folder"].require(run.folder.empty() || bench::is_inner(run.folder),
+                         "a folder inside of the suite's");
   run.wall_s = node["wall_s"].figure().value_or(0);
   node["criteria"].each([&](const Node& item) { run.criteria.push_back(criterion_of(item)); });
   if (node.has("warnings")) {
@@ -135,7 +141,7 @@ RunResult run_of(const Node& node) {
 
 ScenarioResult scenario_of(const Node& node) {
   ScenarioResult scenario;
-  scenario.name = node["name"].text();
+  scenario.name = name_of(node["name"]);
   scenario.purpose = node["purpose"].text();
   scenario.file = node["file"].text();
   scenario.groups = node["groups"].texts();
@@ -164,9 +170,6 @@ PartOf part_of(const Node& node) {
     std::vector<std::uint64_t>& seeds = part.whole.emplace_back(item["name"].text(), 0).second;
     item["seeds"].each([&](const Node& seed) { seeds.push_back(seed.natural()); });
   });
-  node["scenario_sha256"].each_entry([&](const std::string& name, const Node& digest) {
-    part.scenario_sha256[name] = digest.text();
-  });
   return part;
 }
 
@@ -180,7 +183,9 @@ SuiteResult suite_of(const Node& node) {
   suite.sets = node["sets"].texts();
   suite.version = node["version"].text();
   if (node.has("recorded")) suite.recorded = node["recorded"].text();
-  if (node.has("beside")) suite.beside = node["beside"].texts();
+  if (node.has("beside")) {
+    node["beside"].each([&](const Node& name) { suite.beside.push_back(name_of(name)); });
+  }
   if (node.has("split")) suite.split = node["split"].text();
   if (node.has("part_of")) suite.part_of = part_of(node["part_of"]);
   std::set<std::string> names;

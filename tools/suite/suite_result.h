@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,13 +58,13 @@ struct ScenarioResult {
   std::optional<Drawn> drawn = {};                         ///< only for a world
 };
 
+/// Runs by the names of their scenarios, in order, with their seeds.
+using Runs = std::vector<std::pair<std::string, std::vector<std::uint64_t>>>;
+
 /// A part of a suite, made by `lcs suite --shard`.
 struct PartOf {
   Shard shard;
-  /// The runs of the whole suite: scenarios in order, with their seeds.
-  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
-  /// SHA-256 of the scenario files of this part, by the scenarios' names.
-  std::map<std::string, std::string> scenario_sha256 = {};
+  Runs whole;  ///< of the whole suite
 };
 
 struct SuiteResult {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tools/files/json_node.h"
+#include "tools/files/written.h"
 #include "tools/input/message.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
@@ -123,11 +124,24 @@ ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher
   return result;
 }
 
+/// Whether an earlier process has finished a run, for all watchers.
+/// \throws std::runtime_error if its files are no longer as they were written, or those that it has
+///   read are no longer as they were then.
 bool is_whole(const PlannedScenario& planned, std::uint64_t seed,
               const std::vector<SuiteWatcher>& watchers) {
-  return std::ranges::all_of(watchers, [&](const SuiteWatcher& watcher) {
-    return fs::exists(watcher.folder / folder_of(planned, seed) / bench::kMetricsFile);
-  });
+  std::string what;
+  for (const SuiteWatcher& watcher : watchers) {
+    const fs::path folder = watcher.folder / folder_of(planned, seed);
+    if (!fs::exists(folder)) return false;
+    what = bench::first_difference(folder);
+    if (what.empty()) what = bench::changed_since(bench::read_how_made(folder));
+    if (what.empty()) continue;
+    throw std::runtime_error(fmt::format(
+        "{}: {}, so that this finished run no longer fits; remove its folder to have it made "
+        "again, or give --anew to begin the suite again",
+        folder.string(), what));
+  }
+  return true;
 }
 
 /// The duration of an earlier run, as its run.json states it; 0 if it has none.
@@ -144,8 +158,9 @@ double seconds_of(const fs::path& folder) {
 }
 
 /// Takes the figures of a run from its folder. \param exit absent for a run of an earlier process.
+/// \param provenance of the suite, to which the files are added that the run has read.
 void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
-                const SuiteWatcher& watcher, RunResult& run) {
+                const SuiteWatcher& watcher, RunResult& run, bench::Provenance& provenance) {
   const fs::path folder = watcher.folder / folder_of(planned, run.seed);
   run.wall_s = exit ? exit->wall_s : seconds_of(folder);
   if (exit && (exit->signal != 0 || exit->code < 0 || exit->code > 1)) {
@@ -154,6 +169,8 @@ void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
     return;
   }
   run.folder = folder_of(planned, run.seed);
+  provenance.add_read(bench::read_how_made(folder),
+                      fmt::format("{} seed {}", planned.name, run.seed));
   try {
     run.metrics = bench::read_metrics(folder / bench::kMetricsFile);
     const fs::path warnings = folder / bench::kWarningsFile;
@@ -215,15 +232,6 @@ std::vector<double> estimated_seconds(const std::vector<PlannedScenario>& plan,
   return seconds;
 }
 
-std::size_t count_whole(const std::vector<PlannedScenario>& plan,
-                        const std::vector<SuiteWatcher>& watchers) {
-  std::size_t count = 0;
-  for (const PlannedScenario& planned : plan) {
-    for (const std::uint64_t seed : planned.seeds) count += is_whole(planned, seed, watchers);
-  }
-  return count;
-}
-
 std::string shell_line(const std::vector<std::string>& arguments) {
   std::string line = "lcs";
   for (const std::string& word : arguments) line += ' ' + quoted(word);
@@ -257,10 +265,11 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     if (!is_whole(planned, planned.seeds[job.run], options.watchers)) return false;
     for (std::size_t i = 0; i < suites.size(); ++i) {
       finish_run(planned, std::nullopt, options.watchers[i],
-                 suites[i].scenarios[job.scenario].runs[job.run]);
+                 suites[i].scenarios[job.scenario].runs[job.run], options.provenance);
     }
     return true;
   });
+  options.on_begin(total - jobs.size());
   std::vector<std::vector<std::string>> commands;
   for (const Job& job : jobs) {
     const PlannedScenario& planned = plan[job.scenario];
@@ -283,7 +292,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     std::vector<const RunResult*> finished;
     for (std::size_t i = 0; i < suites.size(); ++i) {
       RunResult& run = suites[i].scenarios[job.scenario].runs[job.run];
-      finish_run(plan[job.scenario], exit, options.watchers[i], run);
+      finish_run(plan[job.scenario], exit, options.watchers[i], run, options.provenance);
       finished.push_back(&run);
     }
     done_seconds += job.seconds;

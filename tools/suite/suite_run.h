@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/files/output.h"
+#include "tools/files/provenance.h"
 #include "tools/output/result.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
@@ -47,6 +48,9 @@ struct SuiteRunOptions {
   std::string version;
   std::size_t jobs = 1;               ///< concurrent runs, >= 1
   std::optional<SuiteResult> former;  ///< earlier result, to estimate durations
+  bench::Provenance& provenance;      ///< of the suite; gets the files that the runs have read
+  /// Called with the number of runs that an earlier process has finished.
+  std::function<void(std::size_t)> on_begin;
   /// Called when a run of this process ends, with its result for each watcher.
   std::function<void(const SuiteProgress&, const std::string& scenario,
                      std::span<const RunResult* const>)>
@@ -73,12 +77,9 @@ std::string shell_line(const std::vector<std::string>& arguments);
 /// Sets the run's criteria and outcome from its figures.
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run);
 
-/// The number of planned runs whose results are in the folders of all watchers already.
-std::size_t count_whole(const std::vector<PlannedScenario>& plan,
-                        const std::vector<SuiteWatcher>& watchers);
-
 /// Runs all planned scenarios. Runs whose results are there already are not repeated.
-/// \return a result for each watcher.
+/// \return a result for each watcher. \throws std::runtime_error if such a run no longer fits, or
+///   if two runs have read a file in different states.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options);
 

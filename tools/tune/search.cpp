@@ -87,18 +87,17 @@ std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string
   return axes;
 }
 
-std::vector<Fact> facts_of(const SearchOptions& options) {
-  std::vector<Fact> facts{{"seed", std::to_string(options.seed)}, {"keys", ""}};
+void add_facts(bench::Provenance::Json& facts, const SearchOptions& options) {
+  facts["seed"] = options.seed;
+  facts["keys"] = bench::Provenance::Json::array();
   for (const Axis& axis : options.axes) {
-    facts[1].text += (facts[1].text.empty() ? "" : ", ") + axis.key;
-    facts.push_back(
-        {axis.key, fmt::format("{}, tried from {} to {}", axis.start, axis.low, axis.high)});
+    facts["keys"].push_back(axis.key);
+    facts[axis.key] = fmt::format("{}, tried from {} to {}", axis.start, axis.low, axis.high);
   }
-  return facts;
 }
 
 Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
-             Journal& journal, const std::function<void(int)>& tick) {
+             Evaluations& known, const std::function<void(int)>& tick) {
   const std::vector<Axis>& axes = options.axes;
   Found found;
   std::exception_ptr problem;
@@ -117,10 +116,10 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
       values.push_back(setting.value);
       set(parameters, setting.key, setting.value);
     }
-    std::optional<Worth> worth = journal.find(values);
+    std::optional<Worth> worth = known.find(values);
     if (!worth) {
       worth = judge(parameters);
-      journal.add(values, *worth);
+      known.add(values, *worth);
     }
     if (found.evaluations++ == 0) {
       found.before = settings;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "filter/parameters.h"
-#include "tools/tune/journal.h"
+#include "tools/tune/evaluations.h"
 #include "tools/tune/trials.h"
 
 namespace lcs::tune {
@@ -47,14 +47,14 @@ struct Found {
 
 using Judge = std::function<Worth(const Parameters&)>;
 
-/// The facts about the search itself, for the journal's head.
-std::vector<Fact> facts_of(const SearchOptions& options);
+/// Adds the facts about the search itself to those of a provenance.
+void add_facts(bench::Provenance::Json& facts, const SearchOptions& options);
 
-/// \param journal receives each evaluation. Evaluations that it already holds are not repeated.
+/// \param known receives each evaluation. Evaluations that it already holds are not repeated.
 ///   The search is deterministic, so an interrupted search resumes at the same point.
 /// \param tick called after each evaluation with the number so far; an exception ends the search.
 /// \throws bench::OutputError
 Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
-             Journal& journal, const std::function<void(int)>& tick);
+             Evaluations& known, const std::function<void(int)>& tick);
 
 }  // namespace lcs::tune

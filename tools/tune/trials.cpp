@@ -6,8 +6,6 @@
 #include <stdexcept>
 
 #include "filter/filter.h"
-#include "tools/files/sha256.h"
-#include "tools/input/input_file.h"
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
@@ -30,19 +28,6 @@ bench::Metrics figures_of(const bench::Recording& seen, const Parameters& parame
     scorer.add(frame);
   }
   return scorer.metrics(seen.warnings);
-}
-
-/// SHA-256 over all files that `bench::read_recording` reads.
-std::string digest_of(const std::filesystem::path& run) {
-  constexpr input::FileKind kRunFile{64 * input::kGibibyte, "run the suite again"};
-  std::string digests;
-  for (const char* name : {bench::kLayersFile, bench::kTruthFile, bench::kDetectorFile,
-                           bench::kCameraFile, bench::kWarningsFile}) {
-    const std::filesystem::path file = bench::stored(run, name);
-    digests +=
-        std::filesystem::exists(file) ? bench::sha256(input::read_file(file, kRunFile)) : "none";
-  }
-  return bench::sha256(digests);
 }
 
 /// The evidence that a run is of the split `test`; "" if there is none.
@@ -88,11 +73,7 @@ void Trials::read(const std::filesystem::path& suite) {
       const auto refuse = [&](const std::string& why) {
         throw std::runtime_error(fmt::format("{} {}", folder.string(), why));
       };
-      const std::string digest = digest_of(folder);
       bench::Recording recording = bench::without_detections(bench::read_recording(folder));
-      if (digest_of(folder) != digest) {
-        refuse("changes while it is read; wait until what writes to it has ended");
-      }
       if (const std::string why = why_of_test(scenario, recording); !why.empty()) {
         refuse(
             fmt::format("is of the split test ({}), by which nothing is chosen; name a suite of "
@@ -102,7 +83,6 @@ void Trials::read(const std::filesystem::path& suite) {
       if (recording.truth == bench::Truth::unknown) refuse("has no truth to learn from");
       if (!recording.camera) refuse("does not say what camera it was; run it again");
       runs_.push_back(std::move(recording));
-      digest_ = bench::sha256(digest_ + digest);
     }
   }
 }

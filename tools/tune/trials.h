@@ -42,14 +42,10 @@ class Trials {
 
   const std::vector<bench::Recording>& runs() const { return runs_; }
 
-  /// SHA-256 of all files that the runs were read from.
-  const std::string& digest() const { return digest_; }
-
  private:
   void read(const std::filesystem::path& suite);
 
   std::vector<bench::Recording> runs_;
-  std::string digest_;
 };
 
 }  // namespace lcs::tune

@@ -1,11 +1,11 @@
-#include "tools/files/sha256.h"
+#include "tools/input/sha256.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 
-namespace lcs::bench {
+namespace lcs::input {
 namespace {
 
 TEST(Sha256, IsThatOfTheStandard) {
@@ -34,4 +34,4 @@ TEST(Sha256, OfNoRegularFileIsNone) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::input

@@ -1,4 +1,4 @@
-#include "tools/files/sha256.h"
+#include "tools/input/sha256.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,9 +10,12 @@
 #include <cerrno>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
-namespace lcs::bench {
+#include "tools/input/error.h"
+
+namespace lcs::input {
 namespace {
 
 class Sha256 {
@@ -51,20 +54,29 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::optional<std::string> sha256_of_file(const std::filesystem::path& path) {
+  const auto fail = [&](int error) {
+    throw Error({path.string(), 0}, fmt::format("the file cannot be read ({}); check its "
+                                                "permissions and its disk, and try again",
+                                                std::generic_category().message(error)));
+  };
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (file < 0) return std::nullopt;
+  if (file < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
+    return std::nullopt;
+  }
+  if (file < 0) fail(errno);
   struct stat status = {};
-  ssize_t got = -1;
+  const bool is_regular = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
   Sha256 digest;
-  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
-    std::vector<char> block(1 << 20);
-    do {
-      got = ::read(file, block.data(), block.size());
-      if (got > 0) digest.add(block.data(), static_cast<std::size_t>(got));
-    } while (got > 0 || (got < 0 && errno == EINTR));
+  int error = 0;
+  std::vector<char> block(is_regular ? 1 << 20 : 0);
+  for (ssize_t got = 1; is_regular && got != 0 && error == 0;) {
+    got = ::read(file, block.data(), block.size());
+    if (got > 0) digest.add(block.data(), static_cast<std::size_t>(got));
+    if (got < 0 && errno != EINTR) error = errno;
   }
   ::close(file);
-  return got == 0 ? std::optional(digest.text()) : std::nullopt;
+  if (error != 0) fail(error);
+  return is_regular ? std::optional(digest.text()) : std::nullopt;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::input

@@ -1,0 +1,283 @@
+#include "tools/sequence/sequence_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "tools/files/json_node.h"
+#include "tools/files/written.h"
+#include "tools/input/message.h"
+#include "tools/input/sha256.h"
+#include "tools/sequence/readme.h"
+#include "tools/sequence/text_file.h"
+
+namespace lcs::sequence {
+
+// The keys of a frame's entry.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileRecord, path, bytes, sha256)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Agreement, worst, compared)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameEntry, files, rows, checks)
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kPlan = "plan.json";
+constexpr std::string_view kFrames = "frames-", kPartial = ".partial";
+constexpr const char* kSign = "# Written by `lcs generate`: the frames that are finished";
+constexpr const char* kRemedy = "remove this file to have its frames made again";
+constexpr const char* kFormats = "formats";
+/// Facts by which a sequence may differ from the one that formats are added to.
+constexpr std::array<std::string_view, 3> kOfFormats{kFormats, "rosbags", "h5py"};
+
+/// Formats decide the names of a sequence's files.
+bench::ResultNames sequence_files() {
+  return {"*", "*/*", "*/*/*", "*/*/*/*", "*/*/*/*/*", "*/*/*/*/*/*"};
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path, const std::error_code& error) {
+  bench::fail_to("write", path, error);
+}
+
+/// Moves a finished file to its place, in a folder that may be missing.
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::rename(from, to, error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(from, ignored);
+  fail_to_write(to, error);
+}
+
+/// A name that no other process has, also on another machine.
+std::string own_name() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}-{}", host.data(), ::getpid());
+}
+
+}  // namespace
+
+SequenceFolder::SequenceFolder(const fs::path& target, const fs::path& base, bool adds,
+                               bool is_part, std::function<void()> wait)
+    : output_(target, sequence_files(),
+              is_part ? bench::Unfinished::shared : bench::Unfinished::kept, std::move(wait)),
+      base_(base),
+      adds_(adds) {
+  if (fs::exists(output_.target() / kManifestFile)) {
+    finished_ = provenance_in(output_.target() / kManifestFile);
+  }
+}
+
+std::vector<std::string> SequenceFolder::formats() const {
+  std::vector<std::string> names;
+  if (!finished_ || !finished_->facts.contains(kFormats)) return names;
+  bench::JsonNode(finished_->facts, "")[kFormats].each(
+      [&](const bench::JsonNode& name) { names.push_back(name.text()); });
+  return names;
+}
+
+/// The first difference from the asked sequence; "" if there is none.
+std::string SequenceFolder::other_than(const bench::Provenance& there) const {
+  const std::string what = bench::difference(there, {.facts = facts_, .read = {}});
+  return what.empty() ? bench::changed_since(there, base_) : what;
+}
+
+bool SequenceFolder::is_complete(const bench::Provenance::Json& facts) {
+  facts_ = facts;
+  if (finished_) {
+    const std::string what = other_than(*finished_);
+    const bool is_other =
+        !adds_ ||
+        !bench::difference(*finished_, {.facts = facts, .read = {}}, kOfFormats).empty() ||
+        !bench::changed_since(*finished_, base_).empty();
+    if (!what.empty() && is_other) {
+      throw bench::OutputError(fmt::format(
+          "{} holds another sequence: {}; choose another folder with --out, or remove it",
+          target().string(), what));
+    }
+    if (const std::string damage = bench::first_difference(target()); !damage.empty()) {
+      throw bench::OutputError(
+          fmt::format("{}: {}; remove the folder to make it anew", target().string(), damage));
+    }
+    if (what.empty()) return true;
+  } else if (adds_) {
+    throw bench::OutputError(
+        fmt::format("{} holds no finished sequence to add formats to; leave --add out to make one, "
+                    "or name another folder with --out",
+                    target().string()));
+  }
+  if (!fs::exists(plan_file())) return false;
+  const std::string what = other_than(read_provenance(plan_file()));
+  if (what.empty()) return false;
+  throw bench::OutputError(fmt::format(
+      "{} holds frames of another sequence that is not finished: {}; finish it by its own command, "
+      "or remove that folder",
+      staging().parent_path().string(), what));
+}
+
+fs::path SequenceFolder::plan_file() const {
+  return output_.work() / kPlan;
+}
+
+/// Puts the plan beside the frames, and opens the journal.
+void SequenceFolder::begin() {
+  if (journal_) return;
+  const bench::Provenance own = bench::provenance_of(facts_, base_);
+  if (fs::exists(plan_file())) {
+    if (const auto what = bench::difference(read_provenance(plan_file()), own); !what.empty()) {
+      throw bench::OutputError(fmt::format(
+          "{}: {} from the frames that are there; give the same command again for its remedy",
+          target().string(), what));
+    }
+  } else {
+    const fs::path beside = output_.work() / fmt::format("{}{}", own_name(), kPartial);
+    bench::write_file(beside, own.json().dump());
+    move(beside, plan_file());
+  }
+  if (finished_) take_earlier();
+  journal_.emplace(output_.work() / fmt::format("{}{}", kFrames, own_name()), kSign, own, "frame",
+                   kRemedy, [](const std::string&, int) {});
+  output_.keep();
+}
+
+/// Takes the files of the sequence that formats are added to, as they are.
+void SequenceFolder::take_earlier() const {
+  for (const std::string& path : files_in_manifest(target() / kManifestFile)) {
+    std::error_code error;
+    const fs::path to = staging() / path;
+    if (path == kReadmeFile || fs::exists(to)) continue;
+    fs::create_directories(to.parent_path(), error);
+    if (error) fail_to_write(to, error);
+    bench::link_or_copy(target() / path, to);
+  }
+}
+
+/// Reads the entries that were added since the last call, by any process.
+void SequenceFolder::refresh() {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(output_.work(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kFrames)) continue;
+    journals_.try_emplace(entry.path(), entry.path(), kSign, kRemedy);
+  }
+  for (auto& [path, journal] : journals_) {
+    journal.read([&, &journal = journal](const std::string& row, int line) {
+      try {
+        const Json json = bench::parse_json<Json>(row);
+        entries_[json.at("frame").get<int>()] = json.at("entry").get<FrameEntry>();
+      } catch (const std::exception&) {
+        journal.refuse(line, "the row is no entry of a frame");
+      }
+    });
+  }
+}
+
+bool SequenceFolder::is_whole(int frame) {
+  refresh();
+  const auto found = entries_.find(frame);
+  return found != entries_.end() &&
+         std::ranges::all_of(found->second.files, [&](const FileRecord& file) {
+           return input::sha256_of_file(staging() / file.path) == file.sha256;
+         });
+}
+
+int SequenceFolder::recorded() {
+  refresh();
+  return static_cast<int>(entries_.size());
+}
+
+const FrameEntry& SequenceFolder::read(int frame) {
+  refresh();
+  const auto found = entries_.find(frame);
+  if (found != entries_.end()) return found->second;
+  throw std::runtime_error(fmt::format("{}: frame {} is not finished", target().string(), frame));
+}
+
+bool SequenceFolder::is_finished_by_another() const {
+  const fs::path manifest = target() / kManifestFile;
+  return !fs::exists(staging()) && fs::exists(manifest) &&
+         other_than(provenance_in(manifest)).empty();
+}
+
+void SequenceFolder::add(int frame, const FrameOutput& output, const Agreements& checks) {
+  try {
+    begin();
+    FrameEntry entry{.files = {}, .rows = output.rows, .checks = checks};
+    std::map<std::string, std::pair<FileRecord, std::string_view>> written;  // with the bytes
+    for (const FrameFile& file : output.files) {
+      auto& [record, bytes] = written[file.path];
+      if (file.same_as.empty()) {
+        bytes = file.bytes;
+        write(file.path, bytes);
+        record = {file.path, bytes.size(), input::sha256(bytes)};
+      } else {
+        std::tie(record, bytes) = written.at(file.same_as);
+        record.path = file.path;
+        std::error_code error;
+        fs::create_directories((staging() / file.path).parent_path(), error);
+        fs::create_hard_link(staging() / file.same_as, staging() / file.path, error);
+        if (error) write(file.path, bytes);  // it is there, or the file system has no links
+      }
+      entry.files.push_back(record);
+    }
+    journal_->add(Json{{"frame", frame}, {"entry", entry}}.dump());
+  } catch (const bench::OutputError&) {
+    if (!is_finished_by_another()) throw;
+  }
+}
+
+void SequenceFolder::write(const fs::path& within, std::string_view bytes) const {
+  const fs::path path = staging() / within;
+  std::error_code error;
+  if (fs::is_regular_file(fs::symlink_status(path, error)) &&
+      fs::file_size(path, error) == bytes.size() && read_file(path) == bytes) {
+    return;
+  }
+  const fs::path beside = output_.work() / fmt::format("{}{}", own_name(), kPartial);
+  bench::write_file(beside, bytes);
+  move(beside, path);
+}
+
+std::vector<FileRecord> SequenceFolder::add_folder(
+    const fs::path& within, const std::function<void(const fs::path&)>& make) const {
+  const fs::path work = output_.work() / "folder";
+  fs::remove_all(work);
+  fs::create_directories(work);
+  make(work / within.filename());
+  std::vector<FileRecord> records;
+  for (const auto& entry : fs::directory_iterator(work / within.filename())) {
+    const fs::path path = within / entry.path().filename();
+    records.push_back(
+        {path.string(), entry.file_size(), input::sha256_of_file(entry.path()).value()});
+    if (input::sha256_of_file(staging() / path) == records.back().sha256) continue;
+    move(entry.path(), staging() / path);
+  }
+  fs::remove_all(work);
+  return records;
+}
+
+void SequenceFolder::finish(const Agreements& checks, std::vector<FileRecord> files) {
+  std::set<fs::path> own{kManifestFile, bench::kRecordName};
+  for (const FileRecord& file : files) own.insert(file.path);
+  write(kManifestFile, manifest_text(read_provenance(plan_file()), checks, std::move(files)));
+  for (const fs::directory_entry& entry : bench::entries_below(staging())) {
+    const fs::path within = entry.path().lexically_relative(staging());
+    if (entry.symlink_status().type() == fs::file_type::directory || own.contains(within)) continue;
+    throw bench::OutputError(
+        fmt::format("{} is no file of the sequence; move it away, and give the same command again",
+                    entry.path().string()));
+  }
+  output_.commit();
+}
+
+}  // namespace lcs::sequence
