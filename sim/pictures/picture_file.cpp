@@ -140,10 +140,10 @@ Size webp_size(std::string_view bytes) {
 }
 
 /// Captures stderr during its lifetime. libpng and libjpeg report only there, and their text would
-/// appear beside our own message. One instance at a time.
+/// appear beside our own message. One instance at a time, and none while this program writes there.
 class [[nodiscard]] Overheard {
  public:
-  Overheard() : lock_(mutex()) {
+  Overheard() : lock_(stderr_mutex()) {
     before_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     if (before_ < 0) return;  // stderr is closed, or too many files are open: capture nothing
     heard_ = ::memfd_create("overheard", MFD_CLOEXEC);
@@ -167,10 +167,6 @@ class [[nodiscard]] Overheard {
   }
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
   std::lock_guard<std::mutex> lock_;
   int before_ = -1, heard_ = -1;
 };
@@ -192,6 +188,11 @@ std::unique_ptr<void, decltype(&tjDestroy)> turbojpeg(tjhandle handle) {
 }
 
 }  // namespace
+
+std::mutex& stderr_mutex() {
+  static std::mutex one;
+  return one;
+}
 
 std::optional<cv::Size2l> picture_size(std::string_view bytes) {
   if (bytes.starts_with(kPng)) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
@@ -27,6 +28,9 @@ class PictureError : public std::runtime_error {
 /// The size in the header of a PNG, JPEG, BMP, PGM, PPM, WebP or TIFF; absent for other formats.
 /// For a TIFF: the size of its tiles or strips where they exceed the image.
 std::optional<cv::Size2l> picture_size(std::string_view bytes);
+
+/// Held while stderr is written, which `decode_picture` takes for what libraries write there.
+std::mutex& stderr_mutex();
 
 /// \param flags of `cv::imdecode`. \return never empty.
 /// \throws PictureError for an unknown format, too many pixels, and a damaged or truncated image.

@@ -1,8 +1,11 @@
 #include "sim/world/path.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/rotation.h"
 
@@ -42,29 +45,60 @@ Path::Path(const scenario::Ego& ego) {
   knots_s_.insert(knots_s_.end(), kDegree, poses.back().at_s);
   control_.push_back(control_.back());  // two equal control poses at each end: it is at rest there
 
+  constexpr int kMostRounds = 200;
+  constexpr double kClose = 1e-12;          // m and rad
+  constexpr double kLargestTurn_rad = 0.3;  // in a round: small turns add like vectors
   std::vector<Basis> at_poses;
   for (const scenario::PathPose& pose : poses) at_poses.push_back(basis_at(pose.at_s));
-  constexpr int kMostRounds = 10000;
-  constexpr double kClose = 1e-12;  // m and rad
-  double worst = 1;
+  double worst = 1, worst_before = 1, share = 1;
+  std::size_t worst_pose = 0;
   for (int round = 0; round < kMostRounds && worst > kClose; ++round) {
     worst = 0;
-    std::vector<Pose> next = control_;
+    std::vector<Off> off(poses.size(), Off::Zero());
     for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
       const Pose goal = pose_of(poses[i]), here = motion(at_poses[i]).T_WB;
-      const Vector3d off_m = goal.p - here.p, off_rad = log_of(here.R.transpose() * goal.R);
-      next[i + 1].p += off_m;
-      next[i + 1].R *= exp_of(off_rad);
-      worst = std::max({worst, off_m.norm(), off_rad.norm()});
+      off[i] << goal.p - here.p, log_of(goal.R * here.R.transpose());
+      if (const double most = std::max(off[i].head<3>().norm(), off[i].tail<3>().norm());
+          !(most <= worst)) {  // also if it is not a number
+        worst = most;
+        worst_pose = i;
+      }
     }
-    control_ = std::move(next);
+    const std::vector<Off> change = solve(at_poses, std::move(off));
+    if (worst > worst_before) share = std::max(0.7 * share, 0.1);  // it overshot
+    worst_before = worst;
+    double largest_rad = kLargestTurn_rad;
+    for (const Off& one : change) largest_rad = std::max(largest_rad, one.tail<3>().norm());
+    const double step = share * kLargestTurn_rad / largest_rad;
+    for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+      control_[i + 1].p += step * change[i].head<3>();
+      control_[i + 1].R = exp_of(step * change[i].tail<3>()) * control_[i + 1].R;
+    }
   }
-  if (worst > 1e-9) {
-    throw input::Error(ego.source,
-                       "ego.path: no smooth path leads through these poses, which turn too far "
-                       "from one to the next; add poses in between");
+  if (!(worst <= 1e-9)) {
+    throw input::Error(
+        ego.source,
+        fmt::format(
+            "ego.path: no smooth path leads through these poses: near {:g} s it would swing "
+            "by more than half a turn; add poses in between, or give them more even times",
+            poses[worst_pose].at_s));
   }
   for (Pose& pose : control_) pose.R = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
+}
+
+/// The change of each control pose that moves the path by `off` at each pose, to the first order:
+/// at a pose three basis functions are not 0, so that the equations have three diagonals. They are
+/// totally positive, so that elimination needs no pivots.
+std::vector<Path::Off> Path::solve(const std::vector<Basis>& at_poses, std::vector<Off> off) {
+  std::vector<double> next(off.size(), 0);  // of the row, once it is eliminated
+  for (std::size_t i = 1; i + 1 < off.size(); ++i) {
+    const auto& [before, own, after, none] = at_poses[i].of_order[0];
+    const double pivot = own - before * next[i - 1];
+    next[i] = after / pivot;
+    off[i] = (off[i] - before * off[i - 1]) / pivot;
+  }
+  for (std::size_t i = off.size() - 1; i-- > 1;) off[i] -= next[i] * off[i + 1];
+  return off;
 }
 
 /// Cox and de Boor's recursion. \param k the basis function; its support begins at knot k.

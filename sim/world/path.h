@@ -20,12 +20,13 @@ namespace lcs::sim {
 /// et al., "Efficient derivative computation for cumulative B-splines on Lie groups", CVPR 2020,
 /// with position and rotation split). Velocity and acceleration are continuous between the first
 /// pose and the last; the acceleration may jump at both ends, where the velocity is 0. The path
-/// passes through the poses: progressive iterative approximation finds the control poses (Lin,
-/// Bao, Wang, "Totally positive bases and progressive iteration approximation", 2005).
+/// passes through the poses: a few rounds of the linear equations of a spline in R^6 find the
+/// control poses, as small turns add like vectors.
 class Path {
  public:
   /// \param ego must have a path.
-  /// \throws input::Error if the poses turn too far from one to the next.
+  /// \throws input::Error if the poses turn too far from one to the next, or too fast beside a
+  /// pause.
   explicit Path(const scenario::Ego& ego);
 
   /// Motion of the rover's frame B.
@@ -48,6 +49,8 @@ class Path {
   Basis basis_at(double t_s) const;
   double basis(std::size_t k, int degree, int derivative, double t_s) const;
   Motion motion(const Basis& basis) const;
+  using Off = Eigen::Matrix<double, 6, 1>;  ///< a change of position and a turn, both in W
+  static std::vector<Off> solve(const std::vector<Basis>& at_poses, std::vector<Off> off);
 
   std::vector<double> knots_s_;
   std::vector<Pose> control_;

@@ -10,6 +10,11 @@ lcs=$1 source=$2 work=$3
 # shellcheck source=tests/cluster/suite.sh
 . "$source/tests/cluster/suite.sh"
 
+mkdir -p "$work"
+for dir in . .. / // ./ a/.. a/../ 'o%A' 'o\a'; do
+  (cd "$work" && "$source/tools/cluster/slurm.sh" 2 "$dir" -- true suite) >"$work/refusal.log" 2>&1 && fail "DIR $dir is accepted"
+  grep -q "DIR must" "$work/refusal.log" || fail "DIR $dir is refused by: $(cat "$work/refusal.log")"
+done
 for command in munged slurmctld slurmd sbatch; do
   PATH=$PATH:/usr/sbin command -v $command >/dev/null ||
     skip "$command is missing (Debian: munge slurmctld slurmd slurm-client, which tools/test --all installs)"

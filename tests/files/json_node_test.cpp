@@ -19,6 +19,11 @@ std::string refusal(const std::string& text) {
   return refusal_of<JsonError>([&] { parse_json<Json>(text); });
 }
 
+TEST(JsonText, ReplacesWhatIsNoUtf8) {
+  EXPECT_EQ(json_text(Json{{"name", "a\xff"}}), "{\"name\":\"a\xef\xbf\xbd\"}");
+  EXPECT_EQ(json_text(Json{1}, 1), "[\n 1\n]");
+}
+
 TEST(ParseJson, TakesWhatIsAsDeepAsTheLimit) {
   EXPECT_EQ(parse_json<Json>(lists(kDeepestJson)).dump(), lists(kDeepestJson));
 }

@@ -129,6 +129,16 @@ TEST(InputFile, ACompressedOneIsReadLikeItsText) {
             compressed.string() + ": the file is larger than 1 MiB; give a table");
 }
 
+TEST(InputFile, AGzipMemberIsBoundedWhateverTheSizeOfItsKind) {
+  const scenario::ScenarioFolder folder;
+  const std::filesystem::path bomb = folder.write("table.gz", "");
+  ASSERT_EQ(std::system(("head -c 1100M /dev/zero | gzip -1 > " + bomb.string()).c_str()), 0);
+  const auto read = [&] { read_file(bomb, {64 * kGibibyte, "give a table"}); };
+  EXPECT_EQ(
+      bench::refusal_of<Error>(read),
+      bomb.string() + ": the file has 1 GiB or more in one gzip member; decompress it (gunzip)");
+}
+
 TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
   const scenario::ScenarioFolder folder;
   const auto large = folder.write("large", "");

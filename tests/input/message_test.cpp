@@ -7,8 +7,16 @@
 #include <new>
 #include <stdexcept>
 
+#include "tools/input/error.h"
+
 namespace lcs::input {
 namespace {
+
+TEST(Message, BeginsWithTheNameOfAFileIfThereIsOne) {
+  EXPECT_STREQ(Error({"a.yaml", 3}, "fault; remedy").what(), "a.yaml:3: fault; remedy");
+  EXPECT_STREQ(Error({"a.yaml", 0}, "fault; remedy").what(), "a.yaml: fault; remedy");
+  EXPECT_STREQ(Error({"", 0}, "fault; remedy").what(), "fault; remedy");
+}
 
 TEST(Message, WhatDoesNotShowIsEscaped) {
   EXPECT_EQ(printable("caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),

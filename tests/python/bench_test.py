@@ -1,9 +1,11 @@
 """The commands of the program as functions. LCS_PROGRAM is the program, for its figures and tables."""
 
+import contextlib
 import json
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -222,6 +224,54 @@ class Runs(InAFolder):
             lost.step(next(lcs.simulate(scenario)))
         with self.assertRaisesRegex(ValueError, "klt"):
             lcs.Detector(scenario, "kltt")
+
+    def test_a_program_outlives_the_thread_that_started_it(self):
+        Path("still.py").write_text(STILL, encoding="utf-8")
+        scenario = lcs.Scenario("small.yaml")
+        made = []
+        thread = threading.Thread(
+            target=lambda: made.append(lcs.Detector(scenario, "still", command="python3 still.py"))
+        )
+        thread.start()
+        thread.join()
+        time.sleep(0.3)  # in which a signal would arrive
+        self.assertEqual(len([made[0].step(frame) for frame in lcs.simulate(scenario)]), 6)
+        made[0].finish()
+
+    def test_a_program_is_a_detector_in_a_fork_and_ends_with_it(self):
+        code = (
+            "import lcs, os, time\n"
+            "scenario = lcs.Scenario('small.yaml')\n"
+            "first = lcs.Detector(scenario, 'still', command='python3 still.py')\n"
+            "if os.fork() == 0:\n"
+            "    own = lcs.Detector(scenario, 'still', command='python3 still.py of-the-fork')\n"
+            "    print(os.getpid(), flush=True)\n"
+            "    time.sleep(1000)\n"
+            "os.wait()\n"
+        )
+        Path("still.py").write_text(STILL, encoding="utf-8")
+        parent = subprocess.Popen(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            stdout=subprocess.PIPE,
+        )
+        forked = int(parent.stdout.readline())
+
+        def of_the_fork():
+            found = 0
+            for file in Path("/proc").glob("[0-9]*/cmdline"):
+                with contextlib.suppress(OSError):  # it has ended
+                    found += b"still.py\0of-the-fork" in file.read_bytes()
+            return found
+
+        self.assertEqual(of_the_fork(), 1)
+        os.kill(forked, signal.SIGKILL)
+        parent.wait(timeout=60)
+        parent.stdout.close()
+        until = time.monotonic() + 20
+        while of_the_fork() and time.monotonic() < until:
+            time.sleep(0.01)
+        self.assertEqual(of_the_fork(), 0)
 
     def test_a_sequence_is_replayed_as_it_was_run(self):
         made = lcs.generate("small.yaml", out="data/small", formats=["euroc", "landmarks"])

@@ -146,6 +146,18 @@ gyr_w: 0.0001
   EXPECT_EQ(vins.noise->gyroscope_random_walk, 0.0001);
 }
 
+TEST_F(CalibrationFile, NamesNoFileThatNamesAFurtherOne) {
+  const std::string itself = refusal("# VINS\ncam0_calib: calibration.yaml\n");
+  EXPECT_NE(itself.find("calibration.yaml:2: cam0_calib names a further calibration"),
+            std::string::npos)
+      << itself;
+  bench::write(folder_.path() / "one.yaml", "cam0_calib: two.yaml\n");
+  bench::write(folder_.path() / "two.yaml", "cam0_calib: one.yaml\n");
+  const std::string ring = refusal("cam0_calib: two.yaml\n");
+  EXPECT_NE(ring.find("two.yaml:1: cam0_calib names a further calibration"), std::string::npos)
+      << ring;
+}
+
 TEST_F(CalibrationFile, OfOpenCvRosAndOrbSlamHaveAMatrixOrNumbers) {
   const SensorCalibration opencv = read(R"(%YAML:1.0
 ---

@@ -8,10 +8,12 @@
 #include <set>
 
 #include "tests/scoring/whole_recordings.h"
+#include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output_file.h"
 #include "tools/output/video.h"
+#include "tools/report/page_writer.h"
 #include "tools/report/report_data.h"
 #include "tools/report/worlds_page.h"
 #include "tools/scoring/events.h"
@@ -186,6 +188,29 @@ TEST_F(Report, OfWorldsIsWellFormedAndHasEachWithTheFiguresOfAllDetectors) {
   }
   EXPECT_EQ(html.find("<script"), html.npos);
   EXPECT_EQ(html.find("<img"), html.rfind("<img"));  // there is only one sheet
+}
+
+TEST_F(Report, OfWorldsTakesNoNameForMarkupOrForAScheme) {
+  ScenarioResult world = scenario_with("x\" onerror=\"alert(1)", {run_with(1, 0.8)});
+  world.drawn = suite::Drawn{"f\" onclick=\"alert(2)", 0, {"<img src=y>"}};
+  world.runs[0].folder = "javascript:alert(3)";
+  fs::create_directory(folder_.path() / kSheetsFolder);
+  std::ofstream(folder_.path() / sheet_path(world)) << "a picture";
+  write_worlds_page(folder_.path(), "about", suite_of({world}), {});
+  const std::string html = bench::read(folder_.path() / kWorldsFile);
+  EXPECT_NE(html.find("<img src=\"worlds/x%22%20onerror=%22alert(1).jpg\""), html.npos);
+  for (const char* sign : {"\" onerror", "\" onclick", "<img src=y", "=\"javascript:"}) {
+    EXPECT_EQ(html.find(sign), html.npos) << sign;
+  }
+}
+
+TEST(TextPage, EscapesAllThatIsNotHtmlItself) {
+  TextPage page("t", "");
+  page.add("<i>{}</i>{} {:.1f}", std::string("<b>"), Html{"<hr/>"}, 1.25);
+  const TemporaryFolder folder;
+  page.write(folder.path() / "page.html");
+  const std::string html = bench::read(folder.path() / "page.html");
+  EXPECT_NE(html.find("<i>&lt;b&gt;</i><hr/> 1.2"), html.npos) << html;
 }
 
 TEST_F(Report, AsksTheNetworkForNothing) {

@@ -107,6 +107,22 @@ for ms, first in enumerate(firsts):
   EXPECT_TRUE(end.is_fine) << end.err;
 }
 
+TEST_F(Events, TakeNoLongerThanDsecsTimesOf32Bits) {
+  bench::write(file(), std::string(kWorld) + "duration: 5000 s\n");
+  std::string text = bench::read(file());
+  text.replace(text.find("frames: 4\n"), 10, "");
+  text.replace(text.find("camera: {"), 9, "camera: {rate: 1 Hz, ");
+  bench::write(file(), text);
+  const CommandResult made = generate("dsec");
+  if (made.err.find("needs h5py") != std::string::npos) GTEST_SKIP() << made.err;
+  EXPECT_EQ(made.exit_code, 2);
+  EXPECT_NE(made.err.find("drive.yaml: the sequence takes 5000 s, and DSEC's times in 32 bits end "
+                          "after 4295 s; give fewer frames"),
+            std::string::npos)
+      << made.err;
+  EXPECT_FALSE(fs::exists(folder()));
+}
+
 /// The corners are those of the events, so that pictures without contrast give the same.
 TEST_F(Events, AreReplayedAsCorners) {
   ASSERT_EQ(generate("events").exit_code, 0);

@@ -82,6 +82,36 @@ TEST(Path, RefusesPosesThatTurnTooFar) {
             std::string::npos);
 }
 
+TEST(Path, PausesForLongAmongPosesThatAreDense) {
+  scenario::Ego paused = ego();
+  paused.path.clear();
+  for (int i = 0; i < 200; ++i) {
+    paused.path.push_back(
+        {0.05 * i + (i > 100 ? 5 : 0), {0.01 * i, 0, 1}, {0, 0, test::kDegree * i}});
+  }
+  const Path path(paused);
+  for (const scenario::PathPose& pose : paused.path) {
+    const Path::Motion m = path.at(pose.at_s);
+    EXPECT_LT((m.T_WB.p - pose.position_m).norm(), 1e-8) << pose.at_s;
+    EXPECT_LT(log_of(m.T_WB.R.transpose() * rotation(pose.rpy_rad)).norm(), 1e-8) << pose.at_s;
+  }
+}
+
+TEST(Path, NamesThePlaceAtWhichTimesAreTooUneven) {
+  scenario::Ego uneven = ego();
+  uneven.path.clear();
+  for (int i = 0; i < 2000; ++i) {
+    const double yaw = i < 1001 ? 0 : 20 * test::kDegree;  // in 0.1 ms, among poses each 20 ms
+    uneven.path.push_back({0.02 * i - (i >= 1001 ? 0.0199 : 0), {0.01 * i, 0, 1}, {0, 0, yaw}});
+  }
+  const std::string said = test::scenario_error([&] { Path{uneven}; });
+  EXPECT_NE(said.find("test.yaml:4: ego.path: no smooth path leads through these poses: near 20 s "
+                      "it would swing by more than half a turn; add poses in between, or give them "
+                      "more even times"),
+            std::string::npos)
+      << said;
+}
+
 scenario::Scenario carried() {
   scenario::Scenario s = test::scenario_in("lab", 0, 30);
   s.ego = ego();

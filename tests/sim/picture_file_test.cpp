@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
 #include <map>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "tests/tools/refusal.h"
 
@@ -172,6 +177,27 @@ TEST(Picture, ThatIsDamagedIsRefusedWithoutALibrarysText) {
     EXPECT_EQ(refusal(bytes), "the picture is broken; give a whole one") << kind;
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << kind;
   }
+}
+
+TEST(Picture, ThatIsDamagedIsToldFromWhatAnotherThreadWritesToStderr) {
+  std::string bytes = pictures(80, 60)["jpeg"];
+  bytes.replace(bytes.size() / 2, 40, std::string(40, '\xff'));
+  constexpr int kLines = 300;
+  testing::internal::CaptureStderr();
+  std::atomic<bool> is_done = false;
+  std::thread writer([&] {
+    for (int i = 0; i < kLines; ++i) {
+      const std::lock_guard lock(stderr_mutex());
+      std::fputs("progress\n", stderr);
+    }
+    is_done = true;
+  });
+  do {
+    EXPECT_EQ(refusal(bytes), "the picture is broken; give a whole one");
+  } while (!is_done);
+  writer.join();
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), kLines);
 }
 
 TEST(Picture, AsJpegHasTheBytesAndThePixelsOfOpenCvs) {

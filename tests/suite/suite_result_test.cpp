@@ -124,6 +124,19 @@ TEST_F(SuiteFile, ThatIsNotThereIsNamed) {
   EXPECT_TRUE(refusal().starts_with(file_.string() + ": there is no such file; ")) << refusal();
 }
 
+TEST(SuiteFolder, HasANameForAFileWithoutAFolderAndForWhatIsNotThere) {
+  const bench::TemporaryFolder folder;
+  const std::string file = folder.path() / "suite.json";
+  std::ofstream(file) << "{}";
+  EXPECT_EQ(folder_of(folder.path()), folder.path());
+  EXPECT_EQ(folder_of(file), folder.path());
+  EXPECT_EQ(folder_of("nowhere"), "nowhere");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(folder_of("suite.json"), ".");
+  std::filesystem::current_path(before);
+}
+
 TEST_F(SuiteFile, ThatIsNotJsonIsNamedWithThePlace) {
   write("{\"format\": 1, ");
   EXPECT_TRUE(refusal().starts_with(file_.string() + ":1: not JSON at byte")) << refusal();

@@ -59,6 +59,7 @@ print(json.dumps(greeting), flush=True)
 for line in sys.stdin.buffer:
     frame = json.loads(line)
     k = frame["index"]
+    if mode == "early" and k == 3: print('{"index": 3}', flush=True); time.sleep(1000)
     picture = sys.stdin.buffer.read(header["picture"]["bytes"])
     answer = {"index": k}
     if mode == "writes":
@@ -231,6 +232,7 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
        "frame 3: its answer '{\"index\": 3, \"box\": [[1, NaN, 2, 3, 4]]}': not JSON at byte 26"},
       {"mask", "frame 3: the mask's counts do not add up to 240 x 320 pixels"},
       {"circle", "frame 3: it gives circles, and has not said \"circles\": true in its greeting"},
+      {"early", "frame 3: it answered before it had read the last "},
       {"twice", "frame 4: it"},  // before the request, or with the index of the last one
       {"skips", "frame 3: its answer has the index 4"},
       {"dies", "frame 3: it ended with exit code 1; it wrote to stderr: no more | Traceback"},

@@ -32,7 +32,10 @@ fi
 
 [[ ${1-} =~ ^[1-9][0-9]{0,5}$ ]] || refuse "N must be a number of parts, not '${1-}'"
 [[ ${2-} =~ ^[^-] ]] || refuse "DIR must be a folder, not '${2-}'"
-n=$1 parts=${2%/}.parts array=1-$1 options=() wait=() end=() out=$2
+out=${2%"${2##*[!/]}"} # without slashes at its end
+[[ ! ${out##*/} =~ ^\.?\.?$ ]] || refuse "DIR must be a folder with a name, not '$2'"
+[[ $out != *[%\\]* ]] || refuse "DIR must have no % and no backslash, which Slurm expands in the names of logs"
+n=$1 parts=$out.parts array=1-$1 options=() wait=() end=()
 shift 2
 while [[ $# -gt 0 && $1 != -- ]]; do
   case $1 in

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -152,7 +153,7 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
   std::string_view picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   while (true) {
     if (in_.is_open()) write_some(line, picture);
-    const std::size_t unread = line.size() + picture.size();
+    std::size_t unread = line.size() + picture.size();
     const bool ended = has_ended();  // if so, all its output is in the pipe
     read_what_is_there();
     const std::size_t end = answers_.find('\n');
@@ -162,6 +163,9 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
           most_answer_, kAnswerBytes));
     }
     if (end != std::string::npos) {
+      if (int in_pipe = 0; !bytes.empty() && ::ioctl(in_.get(), FIONREAD, &in_pipe) == 0) {
+        unread += static_cast<std::size_t>(in_pipe);
+      }
       if (unread > 0 && in_.is_open()) {
         throw DetectorError(
             fmt::format("it answered before it had read the last {} bytes of the frame; read the "

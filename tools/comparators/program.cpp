@@ -33,7 +33,7 @@ Json parsed(const std::string& line) {
 
 /// JSON text; for numbers it equals the text in CSV.
 std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return bench::json_text(json);
 }
 
 /// Adds the detector's name and the place to the errors of `work`.

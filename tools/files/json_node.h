@@ -62,6 +62,13 @@ Json parse_json(std::string_view text, const input::Source& where, std::string_v
   }
 }
 
+/// The text of JSON, in which U+FFFD replaces bytes that are no UTF-8, as names of files may have;
+/// all code uses this function. `dump` alone throws.
+template <class Json>
+std::string json_text(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// A JSON value with its path in the file. Each getter throws `JsonNode::Error` if the value has
 /// another type, such as "scenarios[0].seed is not a whole number from 0".
 class JsonNode {

@@ -19,6 +19,9 @@ namespace {
 constexpr std::size_t kBlock = 1 << 16;
 /// Ten times a frame of 100,000 corners; only a file without line ends exceeds it.
 constexpr std::size_t kLongestLine = 256 * kMebibyte;
+/// A member of a gzip file is in memory as a whole. This program's members are of 1 MiB; `gzip`
+/// makes one of a whole file.
+constexpr std::size_t kLargestMember = kGibibyte;
 
 std::string size_text(std::uint64_t bytes) {
   return bytes % kGibibyte == 0 ? std::to_string(bytes / kGibibyte) + " GiB"
@@ -123,6 +126,10 @@ bool InputFile::decompress() {
       fail("this is no whole gzip file", kind_.remedy);
     }
     check_size(read_ + room_);
+    if (room_ >= kLargestMember) {
+      fail("the file has " + size_text(kLargestMember) + " or more in one gzip member",
+           "decompress it (gunzip)");
+    }
   }
   buffer_.append(member_.get(), given);
   decompressed_ += taken;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/kinematics_script.h"
@@ -199,7 +200,7 @@ void write_study(const std::filesystem::path& folder, const Study& study) {
   bench::write_file(folder / kAnswerTable, answer_csv(statements));
   report::write_page(folder / kPage,
                      {.title = "lcs kinematics: " + config.scenario.name,
-                      .data = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                      .data = bench::json_text(data),
                       .script = kKinematicsJs,
                       .where_else = "the CSV files"});
 }

@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 
+#include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
@@ -71,6 +73,7 @@ void write_out(const std::string& text) {
 
 void write_err(const std::string& text) {
   flush_out();  // keeps the order if stdout and stderr are one file
+  const std::lock_guard lock(sim::stderr_mutex());
   write(stderr, text);
 }
 

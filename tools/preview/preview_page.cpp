@@ -16,7 +16,7 @@ namespace lcs::preview {
 namespace {
 
 using Eigen::Vector2d;
-using report::escaped;
+using report::Html;
 
 constexpr const char* kStyle = R"(
 svg { display: block; width: 100%; height: auto; background: var(--panel); border-radius: 6px; }
@@ -85,15 +85,15 @@ class PreviewPage : public report::TextPage {
     add("<header>\n<h1>{}</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> frames at {:g} Hz, "
         "<b>{:.1f} s</b></span><span>camera <b>{}x{}</b>, {:.0f} deg high</span><span>scene "
         "<b>{}</b></span><span>seed {}</span></div>\n",
-        escaped(scenario_.name), escaped(scenario_.purpose), scenario_.frames, camera.rate_hz,
+        scenario_.name, scenario_.purpose, scenario_.frames, camera.rate_hz,
         time_s(scenario_.frames), camera.width_px, camera.height_px,
-        camera.fovy_rad * 180 / std::numbers::pi, escaped(scenario_.scene.filename().string()),
+        camera.fovy_rad * 180 / std::numbers::pi, scenario_.scene.filename().string(),
         scenario_.seed);
     if (preview_.wrong.empty()) {
       add("<p class=\"fine\">Nothing is wrong that can be seen without a run.</p>\n");
     } else {
       add("<div class=\"wrong\"><b>What is wrong</b><ul>\n");
-      for (const std::string& line : preview_.wrong) add("<li>{}</li>\n", escaped(line));
+      for (const std::string& line : preview_.wrong) add("<li>{}</li>\n", line);
       add("</ul></div>\n");
     }
     add("</header>\n");
@@ -125,20 +125,19 @@ class PreviewPage : public report::TextPage {
   }
 
   void polygon(const Window& w, const std::vector<Vector2d>& points, std::string_view classes,
-               std::string_view more = "", std::string_view title = "") {
+               const Html& more = {}, std::string_view title = "") {
     add("<polygon class=\"{}\" {} points=\"", classes, more);
     for (const Vector2d& p : points) {
       const Vector2d at = w.at(p);
       add("{:.1f},{:.1f} ", at.x(), at.y());
     }
     add("\">");
-    if (!title.empty()) add("<title>{}</title>", escaped(title));
+    if (!title.empty()) add("<title>{}</title>", title);
     add("</polygon>\n");
   }
 
-  void label(const Vector2d& at_px, const std::string& text, std::string_view more = "") {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", at_px.x(), at_px.y(), more,
-        escaped(text));
+  void label(const Vector2d& at_px, const std::string& text, const Html& more = {}) {
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", at_px.x(), at_px.y(), more, text);
   }
 
   /// Occupied places of a drawing, so that texts neither overlap nor are cut.
@@ -178,9 +177,9 @@ class PreviewPage : public report::TextPage {
                                          {right, below + 1.3 * height}}};
     for (const Vector2d& at : sides | std::views::take(bold ? 8 : 2)) {
       if (!labels.take(at, text, height, letter)) continue;
-      label(
-          at, text,
-          fmt::format("style=\"font-size: {:.0f}px; font-weight: {}\"", height, bold ? 700 : 400));
+      label(at, text,
+            {fmt::format("style=\"font-size: {:.0f}px; font-weight: {}\"", height,
+                         bold ? 700 : 400)});
       return;
     }
   }
@@ -293,12 +292,12 @@ class PreviewPage : public report::TextPage {
           print->object == 0 ? ""
                              : survey_.objects[static_cast<std::size_t>(print->object - 1)].name;
       if (mover == preview_.movers.end()) {
-        polygon(w, print->outline_m, print->object == 0 ? "setting" : "thing", "", name);
+        polygon(w, print->outline_m, print->object == 0 ? "setting" : "thing", {}, name);
         continue;
       }
       const std::string classes = fmt::format(
           "thing c{}", colour_of(static_cast<std::size_t>(mover - preview_.movers.begin())));
-      polygon(w, print->outline_m, classes, "stroke-width=\"1.5\"", name + ", at the start");
+      polygon(w, print->outline_m, classes, {"stroke-width=\"1.5\""}, name + ", at the start");
       if (mover->moves) {
         const auto id = static_cast<std::size_t>(print->object);
         const sim::Pose moved =
@@ -308,7 +307,7 @@ class PreviewPage : public report::TextPage {
           const Eigen::Vector3d at = moved * Eigen::Vector3d(p.x(), p.y(), 0);
           outline.emplace_back(at.head<2>());
         }
-        polygon(w, outline, classes, "stroke-dasharray=\"4 3\" fill-opacity=\"0.3\"",
+        polygon(w, outline, classes, {"stroke-dasharray=\"4 3\" fill-opacity=\"0.3\""},
                 name + ", at the end");
       }
     }
@@ -337,7 +336,7 @@ class PreviewPage : public report::TextPage {
       const Vector2d &from = mover.way_m.front(), &to = mover.way_m.back();
       add("<tr><td><i class=\"c{}\"></i>{}</td><td>{}</td><td>({:.2f}, {:.2f}) m</td><td>({:.2f}, "
           "{:.2f}) m</td><td>{:.2f} m at {:.1f} s</td><td>{} of {} pictures</td></tr>\n",
-          colour_of(i), escaped(mover.name),
+          colour_of(i), mover.name,
           mover.moves ? fmt::format("{:.1f} to {:.1f} s", mover.moves->from_s, mover.moves->to_s)
                       : "never",
           from.x(), from.y(), to.x(), to.y(), mover.nearest_m, mover.nearest_s, mover.looks,
@@ -391,9 +390,9 @@ class PreviewPage : public report::TextPage {
           "fill=\"var(--bar)\"/>\n",
           x + 4, kHeight + 20 - high, kStep - 8, high);
       label({x + kStep / 2, kHeight + 16 - high}, std::to_string(preview_.corners_px[i].size()),
-            "text-anchor=\"middle\"");
+            {"text-anchor=\"middle\""});
       label({x + kStep / 2, kHeight + 36}, fmt::format("{:.1f} s", time_s(preview_.looks[i].index)),
-            "text-anchor=\"middle\"");
+            {"text-anchor=\"middle\""});
     }
     add("</svg></figure>\n");
   }

@@ -1,11 +1,16 @@
 #include "tools/process/child.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <condition_variable>
+#include <mutex>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace lcs::process {
@@ -13,24 +18,104 @@ namespace {
 
 constexpr int kCannotStart = 127;  // like a shell
 
+struct Start {
+  const char* program;
+  char* const* arguments;
+  const StandardFiles& files;
+  const ChildOptions& options;
+  sigset_t blocked;  ///< signals, of the thread that asks
+};
+
 /// Runs in the child, up to and including exec; async-signal-safe.
-[[noreturn]] void become(const char* program, char* const* arguments, const StandardFiles& files,
-                         const ChildOptions& options, pid_t parent) {
-  if (options.own_group) ::setpgid(0, 0);
+[[noreturn]] void become(const Start& start, pid_t parent) {
+  if (start.options.own_group) ::setpgid(0, 0);
   // Ends the child when the parent ends for any reason.
-  if (::prctl(PR_SET_PDEATHSIG, options.when_parent_ends) != 0 || ::getppid() != parent) {
+  if (::prctl(PR_SET_PDEATHSIG, start.options.when_parent_ends) != 0 || ::getppid() != parent) {
     ::_exit(kCannotStart);
   }
   const auto plug = [](int file, int standard) {
     if (file < 0) file = ::open("/dev/null", O_RDWR);
     return ::dup2(file, standard) >= 0;
   };
-  if (plug(files.in, STDIN_FILENO) && plug(files.out, STDOUT_FILENO) &&
-      plug(files.err, STDERR_FILENO)) {
-    ::execv(program, arguments);
+  if (plug(start.files.in, STDIN_FILENO) && plug(start.files.out, STDOUT_FILENO) &&
+      plug(start.files.err, STDERR_FILENO)) {
+    ::pthread_sigmask(SIG_SETMASK, &start.blocked, nullptr);
+    ::execv(start.program, start.arguments);
   }
   ::_exit(kCannotStart);
 }
+
+/// A thread that starts all children and lives as long as the process: the kernel ends a child with
+/// the thread that started it, and not with the process (PR_SET_PDEATHSIG).
+class Starter {
+ public:
+  /// Is never destroyed, as its thread has no end.
+  static Starter& of_this_process() {
+    static std::atomic<Starter*> known;
+    Starter* starter = known;
+    // A fork has no thread but the one that forked. The thread of a starter that comes too late
+    // sleeps forever.
+    while (!starter || starter->process_ != ::getpid()) {
+      auto* own = new Starter;
+      if (known.compare_exchange_strong(starter, own)) return *own;
+    }
+    return *starter;
+  }
+
+  pid_t start(const Start& start) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return state_ == State::free; });
+    start_ = &start;
+    state_ = State::asked;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return state_ == State::done; });
+    const pid_t child = child_;
+    const int error = error_;
+    state_ = State::free;
+    changed_.notify_all();
+    if (child < 0) {
+      throw std::system_error(error, std::generic_category(), "no process can be started (fork)");
+    }
+    return child;
+  }
+
+ private:
+  enum class State { free, asked, done };
+
+  Starter() {
+    // Signals are for the other threads.
+    sigset_t all, before;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);
+    try {
+      std::thread([this] { serve(); }).detach();
+    } catch (...) {
+      ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+      throw;
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+
+  [[noreturn]] void serve() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return state_ == State::asked; });
+      child_ = ::fork();
+      if (child_ == 0) become(*start_, process_);
+      error_ = errno;
+      state_ = State::done;
+      changed_.notify_all();
+    }
+  }
+
+  const pid_t process_ = ::getpid();
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::free;
+  const Start* start_ = nullptr;
+  pid_t child_ = -1;
+  int error_ = 0;
+};
 
 }  // namespace
 
@@ -41,10 +126,9 @@ pid_t start_child(const char* program, std::span<const std::string> arguments,
     pointers.push_back(const_cast<char*>(argument.c_str()));
   }
   pointers.push_back(nullptr);
-  const pid_t self = ::getpid();
-  const pid_t child = ::fork();
-  if (child == 0) become(program, pointers.data(), files, options, self);
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (fork)");
+  Start start{program, pointers.data(), files, options, {}};
+  ::pthread_sigmask(SIG_SETMASK, nullptr, &start.blocked);
+  const pid_t child = Starter::of_this_process().start(start);
   if (options.own_group) ::setpgid(child, child);  // set in both processes, to avoid a race
   return child;
 }

@@ -15,7 +15,7 @@ struct StandardFiles {
 };
 
 struct ChildOptions {
-  int when_parent_ends = 0;  ///< signal to the child when the thread that started it ends
+  int when_parent_ends = 0;  ///< signal to the child when this process ends
   bool own_group = false;    ///< for Ctrl-C not to reach it, and to end all its children
 };
 

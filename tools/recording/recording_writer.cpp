@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "tools/files/json_node.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
@@ -63,8 +64,7 @@ void append(std::string& out, OrNan value) {
   }
 }
 void append(std::string& out, const std::string& text) {
-  // A file name may hold any bytes; JSON holds UTF-8 only.
-  out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  out += json_text(nlohmann::json(text));
 }
 template <class Enum>
 requires std::is_enum_v<Enum>

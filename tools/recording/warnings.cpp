@@ -56,7 +56,7 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
     if (warned.count) json[warned.word] = {{"count", *warned.count}, {"first", warned.text}};
   }
   // A body's name may hold any bytes; JSON holds UTF-8 only.
-  write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  write_file(path, json_text(json, 1) + '\n');
 }
 
 std::vector<Warned> read_warnings(const std::filesystem::path& path) {

@@ -382,16 +382,16 @@ std::optional<scenario::ImuNoise> read_noise(Keys& keys) {
   return noise;
 }
 
-}  // namespace
-
-SensorCalibration read_calibration(const std::filesystem::path& file, const std::string& camera) {
+/// \param is_named whether another calibration names this one, which then names no third.
+SensorCalibration read(const std::filesystem::path& file, const std::string& camera,
+                       bool is_named) {
   const Value yaml = parse(file);
   SensorCalibration calibration;
   for (const input::Entry& entry : yaml.entries) calibration.keys[entry.key] = entry.where;
   Keys keys(yaml, "");  // further keys may be present; they are ignored
   const std::string second = camera == "cam1" ? "Camera2.fx" : "";
-  const std::string own_file =
-      keys.text({camera == "cam1" ? "cam1_calib" : "cam0_calib"});  // VINS-Fusion
+  const char* const its_file = camera == "cam1" ? "cam1_calib" : "cam0_calib";  // VINS-Fusion
+  const Value* own_file = keys.any_of({its_file});
   if (const Value* imu = keys.any_of({"imu0"})) {
     Keys inner(*imu, "imu0");
     calibration.noise = read_noise(inner);
@@ -401,8 +401,15 @@ SensorCalibration read_calibration(const std::filesystem::path& file, const std:
   }
   if (keys.has("cam0")) {
     read_camchain(yaml, keys, camera, calibration);
-  } else if (!own_file.empty()) {
-    calibration.lens = read_calibration(file.parent_path() / own_file).lens;
+  } else if (own_file) {
+    if (is_named) {
+      throw Error(own_file->where,
+                  fmt::format("{} names a further calibration, and this one is itself named by a "
+                              "calibration; name the camera's own file there",
+                              its_file));
+    }
+    const std::string name = input::as_text(*own_file, its_file);
+    calibration.lens = read(file.parent_path() / name, "", true).lens;
     calibration.T_BS = keys.pose({camera == "cam1" ? "body_T_cam1" : "body_T_cam0"});
   } else if (const std::string type = keys.text({"model_type"}); !type.empty()) {
     read_camodocal(keys, type, calibration);
@@ -424,6 +431,12 @@ SensorCalibration read_calibration(const std::filesystem::path& file, const std:
                 fmt::format("holds no calibration that is known; {}", kCalibrationFile.remedy));
   }
   return calibration;
+}
+
+}  // namespace
+
+SensorCalibration read_calibration(const std::filesystem::path& file, const std::string& camera) {
+  return read(file, camera, false);
 }
 
 }  // namespace lcs::replay

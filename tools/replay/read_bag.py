@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import importlib
 import json
 import math
 import shutil
@@ -17,6 +18,40 @@ from bisect import bisect_left
 from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, NamedTuple, NoReturn
+
+DECOMPRESSORS = {"bz2": "BZ2Decompressor", "lz4.frame": "LZ4FrameDecompressor",
+                 "compression.zstd": "ZstdDecompressor", "backports.zstd": "ZstdDecompressor"}  # fmt: skip
+MOST_MIB = 256  # of a chunk or message: more than the largest picture that a replay takes
+
+
+class Refusal(Exception):
+    """A fault of the input, as "what; remedy"."""
+
+
+def bounded(decompressor: Callable[[], Any]) -> Callable[..., bytes]:
+    """A library's `decompress` that refuses a few bytes that grow without a bound."""
+
+    def decompress(data: bytes, *_: Any) -> bytes:
+        parts, left = [], MOST_MIB << 20
+        while data:  # frame by frame
+            one = decompressor()
+            parts.append(one.decompress(data, left + 1))
+            left -= len(parts[-1])
+            if left < 0:
+                raise Refusal(f"a chunk or message has more than {MOST_MIB} MiB once it is "
+                              "decompressed; write the bag with smaller chunks")  # fmt: skip
+            if not one.eof:
+                raise ValueError("compressed data end too early")
+            data = one.unused_data
+        return b"".join(parts)
+
+    return decompress
+
+
+for name, kind in DECOMPRESSORS.items():  # before rosbags imports them
+    with contextlib.suppress(ImportError):
+        library = importlib.import_module(name)
+        library.decompress = bounded(getattr(library, kind))
 
 try:
     import numpy as np
@@ -54,10 +89,6 @@ HEADERS = {
     "odometry": "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
                 "w_RB_B_z [rad s^-1]",
 }  # fmt: skip
-
-
-class Refusal(Exception):
-    """A fault of the input, as "what; remedy"."""
 
 
 class Topic(NamedTuple):
@@ -149,6 +180,8 @@ class Bag:
             try:
                 for c, t_ns, data in reader.messages(mine) if mine else ():  # of none it gives all
                     yield wanted[c.topic, c.msgtype], t_ns, data
+            except Refusal:
+                raise
             except Exception as fault:  # of any kind: rosbags passes those of its libraries on
                 self.tell(f"the bag is read up to a fault, and no further: {fault_of(fault)}")
 

@@ -124,10 +124,10 @@ function runTable() {
 
 /** The anchor of a scenario, of its run with a seed, and of an event in that: by names, so that links outlive other results. */
 const anchor = (scenario, run, event) => scenario.name + (run ? '/seed-' + run.seed : '') + (event ? '/' + event.id : '');
-const address = (id) => '#' + id.split('/').map(encodeURIComponent).join('/');
+const address = (path) => path.split('/').map(encodeURIComponent).join('/');
 
 /** A link that opens and shows the section, run or event. */
-const linkTo = (id, text, title) => el('a', { href: address(id), title, onclick: () => openAt(id) }, text);
+const linkTo = (id, text, title) => el('a', { href: '#' + address(id), title, onclick: () => openAt(id) }, text);
 const link = (scenario) => linkTo(anchor(scenario), scenario.name, scenario.purpose);
 
 function openAt(id) {
@@ -394,7 +394,7 @@ function runBody(scenario, run) {
     run.error ? el('p', { class: 'message' }, run.error) : null,
     ...run.warnings.map((warning) => el('p', { class: 'message' }, 'warning: ' + warning)),
     run.before && run.before.error ? el('p', { class: 'message' }, 'baseline: ' + run.before.error) : null,
-    run.folder && !data.is_run ? el('p', { class: 'quiet small' }, 'Its files: ', el('a', { href: run.folder + '/' }, run.folder)) : null,
+    run.folder && !data.is_run ? el('p', { class: 'quiet small' }, 'Its files: ', el('a', { href: address(run.folder) + '/' }, run.folder)) : null,
     run.outcome === 'error' || !scenario.is_whole ? null : [el('h3', null, 'Over time'), overTime(run),
       el('h3', null, 'Misses and false alarms'), notes(run), eventList(scenario, run)]);
 }

@@ -77,7 +77,7 @@ TextPage::TextPage(std::string_view title, std::string_view style) {
   add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{}</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
-      escaped(title), kPageCss, style);
+      title, Html{std::string(kPageCss)}, Html{std::string(style)});
 }
 
 void TextPage::write(const std::filesystem::path& file) const {

@@ -9,11 +9,30 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 namespace lcs::report {
 
 /// Escapes text for an HTML element or a quoted attribute.
 std::string escaped(std::string_view text);
+
+/// Text that is HTML or SVG itself, in which all other text is escaped.
+struct Html {
+  std::string text;
+};
+
+/// The form of a value in a page: numbers and `Html` as they are, all other text escaped.
+template <class T>
+auto shown(const T& value) {
+  if constexpr (std::is_same_v<T, Html>) {
+    return std::string_view(value.text);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return value;
+  } else {
+    return escaped(value);
+  }
+}
 
 struct Page {
   std::string_view title;
@@ -31,9 +50,11 @@ class TextPage {
   /// \param style CSS that follows the common CSS.
   TextPage(std::string_view title, std::string_view style);
 
+  /// \param format HTML. \param args by `shown`.
   template <class... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(html_), format, std::forward<Args>(args)...);
+  void add(fmt::format_string<decltype(shown(std::declval<const Args&>()))...> format,
+           const Args&... args) {
+    fmt::format_to(std::back_inserter(html_), format, shown(args)...);
   }
 
   /// As `write_page`.

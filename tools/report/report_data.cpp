@@ -434,7 +434,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
 
 /// The JSON text. Replaces invalid UTF-8, which names and messages may hold.
 std::string text_of(const Json& data) {
-  return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return bench::json_text(data);
 }
 
 }  // namespace

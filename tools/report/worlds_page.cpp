@@ -60,15 +60,15 @@ std::vector<double> figures_of(const SuiteResult& by, const Worlds& worlds,
   return figures;
 }
 
-std::string cell(const SuiteResult& by, const Worlds& worlds, const bench::Metric& metric) {
+Html cell(const SuiteResult& by, const Worlds& worlds, const bench::Metric& metric) {
   const std::vector<double> figures = figures_of(by, worlds, metric.key);
   const int decimals = metric.scale.decimals;
-  if (figures.empty()) return "<td class=\"nothing\">–</td>";
+  if (figures.empty()) return {"<td class=\"nothing\">–</td>"};
   const suite::Interval mean = suite::interval_of(figures);
   std::string text = fmt::format("<td>{:.{}f}", mean.mean, decimals);
   if (mean.half)
     text += fmt::format("<span class=\"spread\">±{:.{}f}</span>", *mean.half, decimals);
-  return text + "</td>";
+  return {text + "</td>"};
 }
 
 class WorldsPage : public TextPage {
@@ -87,8 +87,8 @@ class WorldsPage : public TextPage {
     }
     head(about);
     for (const auto& [family, worlds] : families_) {
-      add("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"facts\"><span>{1} {2}</span>",
-          escaped(family), worlds.size(), worlds.size() == 1 ? "world" : "worlds");
+      add("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"facts\"><span>{1} {2}</span>", family,
+          worlds.size(), worlds.size() == 1 ? "world" : "worlds");
       say(worlds, kCorners, "corners a frame");
       add("</p>\n");
       table(worlds);
@@ -105,8 +105,8 @@ class WorldsPage : public TextPage {
   void head(const std::string& about) {
     add("<header>\n<h1>Worlds</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> worlds</span>"
         "<span><b>{}</b> drawn again</span><span>{}</span>",
-        escaped(about), all_.size(), suite::drawn_again(suite_), escaped(suite_.version));
-    for (const std::string& set : suite_.sets) add("<span><code>{}</code></span>", escaped(set));
+        about, all_.size(), suite::drawn_again(suite_), suite_.version);
+    for (const std::string& set : suite_.sets) add("<span><code>{}</code></span>", set);
     add("<span><a href=\"{0}\">{0}</a></span></div>\n", kReportFile);
     add("<p class=\"small\">Pictures: first, middle and last frame, with the truth's boxes: "
         "<b class=\"moves\">moves</b>, <b class=\"stands\">stands</b>. Plan from above, as drawn: "
@@ -115,10 +115,10 @@ class WorldsPage : public TextPage {
     add("<h2>{} by family</h2>\n<div "
         "class=\"scroll\"><table>\n<thead><tr><th>family</th>",
         bench::metric(kF1).label);
-    for (const SuiteResult* by : detectors_) add("<th>{}</th>", escaped(by->detector));
+    for (const SuiteResult* by : detectors_) add("<th>{}</th>", by->detector);
     add("</tr></thead>\n<tbody>\n");
     for (const auto& [family, worlds] : families_) {
-      add("<tr><td><a href=\"#{0}\">{0}</a></td>", escaped(family));
+      add("<tr><td><a href=\"#{0}\">{0}</a></td>", family);
       f1_cells(worlds);
     }
     add("<tr><td><b>all</b></td>");
@@ -138,11 +138,11 @@ class WorldsPage : public TextPage {
     add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
     for (const std::string_view key : kColumns) {
       const bench::Metric& metric = bench::metric(key);
-      add("<th title=\"{}\">{}</th>", escaped(metric.tooltip()), metric.heading());
+      add("<th title=\"{}\">{}</th>", metric.tooltip(), metric.heading());
     }
     add("</tr></thead>\n<tbody>\n");
     for (const SuiteResult* by : detectors_) {
-      add("<tr><td>{}</td>", escaped(by->detector));
+      add("<tr><td>{}</td>", by->detector);
       for (const std::string_view key : kColumns) {
         add("{}", cell(*by, worlds, bench::metric(key)));
       }
@@ -158,8 +158,8 @@ class WorldsPage : public TextPage {
   }
 
   void article(const ScenarioResult& world) {
-    add("<article id=\"{0}\">\n<h3>{0} <a href=\"#{1}\">#</a>", escaped(world.name),
-        escaped(suite::anchor_of(world.name)));
+    add("<article id=\"{0}\">\n<h3>{0} <a href=\"#{1}\">#</a>", world.name,
+        suite::anchor_of(world.name));
     say({&world}, kFrames, "frames");
     say({&world}, kCorners, "corners a frame");
     if (suite::is_in(world, "static")) {
@@ -172,14 +172,14 @@ class WorldsPage : public TextPage {
       add("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: three pictures and the plan\" "
           "width=\"1920\" "
           "height=\"360\" loading=\"lazy\"/></a>\n",
-          sheet.generic_string(), escaped(world.name));
+          suite::address_of(sheet.generic_string()), world.name);
     }
     add("<div class=\"beside\">\n");
     table({&world});
     add("<div class=\"words\"><p>");
     if (world.drawn) {
       for (const std::string& feature : world.drawn->features) {
-        add("<span class=\"feature\">{}</span>", escaped(feature));
+        add("<span class=\"feature\">{}</span>", feature);
       }
     }
     add("</p>\n");
@@ -188,12 +188,11 @@ class WorldsPage : public TextPage {
   }
 
   void links(const ScenarioResult& world, const suite::RunResult& run) {
-    add("<p><code>lcs run {} --seed {}</code>", escaped(world.file.generic_string()), run.seed);
-    if (!run.error.empty()) add(" <span class=\"error\">{}</span>", escaped(run.error));
-    add(" <a href=\"{}#{}\">report</a>", kReportFile,
-        escaped(suite::anchor_of(world.name, run.seed)));
+    add("<p><code>lcs run {} --seed {}</code>", world.file.generic_string(), run.seed);
+    if (!run.error.empty()) add(" <span class=\"error\">{}</span>", run.error);
+    add(" <a href=\"{}#{}\">report</a>", kReportFile, suite::anchor_of(world.name, run.seed));
     if (!run.folder.empty()) {
-      add(" <a href=\"{}/\">files</a>", escaped(run.folder.generic_string()));
+      add(" <a href=\"{}/\">files</a>", suite::address_of(run.folder.generic_string()));
     }
     add("</p>\n");
   }

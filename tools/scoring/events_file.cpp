@@ -111,7 +111,7 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
                   {{"missed", by_word(sums.missed)},
                    {"false", by_word(sums.false_ones)},
                    {"squares", by_word(sums.squares)}}}};
-  write_file(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_file(file, json_text(all, 1) + '\n');
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/files/json_node.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/writers.h"
 
@@ -44,7 +45,7 @@ class CocoWriter : public Writer {
     const nlohmann::json info = {{"description", info_.scenario.name}};
     return {{"coco/annotations.json",
              {{.text = fmt::format(R"({{"info":{},"licenses":[],"categories":{},"images":[)",
-                                   info.dump(), categories.dump())},
+                                   bench::json_text(info), bench::json_text(categories))},
               {.stream = "coco_images", .separator = ",\n"},
               {.text = R"(],"annotations":[)"},
               {.stream = "coco_annotations", .separator = ",\n"},

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/script.h"
@@ -76,7 +78,17 @@ class RpgWriter : public Writer {
 
 class DsecWriter : public Writer {
  public:
-  explicit DsecWriter(const SequenceInfo& info) : info_(info) { require_events(info, "dsec"); }
+  explicit DsecWriter(const SequenceInfo& info) : info_(info) {
+    require_events(info, "dsec");
+    constexpr double kMost_s = 1e-6 * std::numeric_limits<std::uint32_t>::max();
+    const double duration_s = info.scenario.frames / info.scenario.camera.rate_hz;
+    if (duration_s <= kMost_s) return;
+    throw input::Error({info.scenario.file.string(), 0},
+                       fmt::format("the sequence takes {:.0f} s, and DSEC's times in 32 bits end "
+                                   "after {:.0f} s; give fewer frames, or leave dsec out of "
+                                   "--formats",
+                                   duration_s, kMost_s));
+  }
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     std::string& events = output.rows["dsec"];

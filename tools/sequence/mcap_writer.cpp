@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/files/json_node.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/script.h"
@@ -70,12 +71,12 @@ class McapWriter : public Writer {
                        {"v_C", numbers_of(T_WC.R.transpose() * o.truth.v_WC_mps)},
                        {"w_C", numbers_of(o.truth.w_C_radps)}};
     }
-    output.rows["mcap"] = json.dump() + "\n";
+    output.rows["mcap"] = bench::json_text(json) + "\n";
   }
 
   std::vector<Document> documents() const override {
     if (!info_.is_first()) return {};
-    Document bag{kBagFile, {{.text = sensors().dump() + "\n"}}};
+    Document bag{kBagFile, {{.text = bench::json_text(sensors()) + "\n"}}};
     for (std::size_t place = 0; place < info_.rig.size(); ++place) {
       const std::string of = place == 0 ? "" : camera_name(place) + "/";
       bag.parts.push_back({.stream = of + "mcap"});

@@ -216,7 +216,7 @@ std::string settings_text(const SequenceInfo& info) {
                                {"T_BC", matrix_of(info.rig[i]->T_BC)}});
     json["filter_place"] = info.place;
   }
-  return json.dump(2) + "\n";
+  return bench::json_text(json, 2) + "\n";
 }
 
 ReplaySettings read_settings(const std::filesystem::path& file) {

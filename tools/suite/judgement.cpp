@@ -114,18 +114,6 @@ class Lister {
   std::vector<Judgement> all_;
 };
 
-/// Escapes all bytes that an address's fragment cannot hold (RFC 3986, section 3.5).
-std::string fragment(std::string_view text) {
-  constexpr std::string_view kPlain = "-._~!$&'()*+,;=:@/";
-  std::string escaped;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain = byte < 128 && (std::isalnum(byte) || kPlain.find(c) != kPlain.npos);
-    escaped += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return escaped;
-}
-
 }  // namespace
 
 std::vector<Judgement> judgements_of(const SuiteResult& suite,
@@ -176,12 +164,23 @@ std::string counted(std::int64_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+std::string address_of(std::string_view path) {
+  constexpr std::string_view kPlain = "-._~!$&'()*+,;=@/";
+  std::string address;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = byte < 128 && (std::isalnum(byte) || kPlain.find(c) != kPlain.npos);
+    address += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return address;
+}
+
 std::string anchor_of(const std::string& scenario) {
-  return fragment(scenario);
+  return address_of(scenario);
 }
 
 std::string anchor_of(const std::string& scenario, std::uint64_t seed) {
-  return fmt::format("{}/seed-{}", fragment(scenario), seed);
+  return fmt::format("{}/seed-{}", address_of(scenario), seed);
 }
 
 }  // namespace lcs::suite

@@ -64,6 +64,10 @@ std::string run_counts(const SuiteResult& suite);
 /// "1 run", "2 runs".
 std::string counted(std::int64_t count, const std::string& noun);
 
+/// A relative address (RFC 3986) of a file beside a page: all other bytes are escaped, and the
+/// colon, so that no name becomes a scheme as in "javascript:".
+std::string address_of(std::string_view path);
+
 /// The fragment of a report's address, after the #, of a scenario or of its run with a seed.
 std::string anchor_of(const std::string& scenario);
 std::string anchor_of(const std::string& scenario, std::uint64_t seed);

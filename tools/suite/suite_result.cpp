@@ -216,12 +216,13 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   if (suite.part_of) json["part_of"] = to_json(*suite.part_of);
   json["scenarios"] = std::move(scenarios);
   // A child's stderr may be invalid UTF-8, which JSON forbids.
-  bench::write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  bench::write_file(file, bench::json_text(json, 1) + '\n');
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   std::error_code error;
-  return std::filesystem::is_directory(path, error) ? path : path.parent_path();
+  if (!std::filesystem::is_regular_file(path, error)) return path;
+  return path.has_parent_path() ? path.parent_path() : ".";
 }
 
 SuiteResult read_suite(const std::filesystem::path& path) {

@@ -338,6 +338,22 @@ class Bags(unittest.TestCase):
         _, _, told = self.converted(self.bag("mcap", lambda m: m.image(T0), short))
         self.assertIn("1 messages of /cam/image_raw are unreadable and left out, first at", told)
 
+    def test_what_grows_without_a_bound_is_refused(self):
+        for kind, compression in (
+            ("bag", (rosbag1.Writer.CompressionFormat.BZ2,)),
+            ("bag", (rosbag1.Writer.CompressionFormat.LZ4,)),
+            ("mcap", (rosbag2.CompressionMode.STORAGE, rosbag2.CompressionFormat.ZSTD)),
+            ("db3", (rosbag2.CompressionMode.MESSAGE, rosbag2.CompressionFormat.ZSTD)),
+        ):
+            with self.subTest(kind=kind, compression=compression):
+                maker = Maker(Path(tempfile.mkdtemp(dir=self.folder)), kind)
+                maker.writer.set_compression(*compression)
+                with maker.writer:
+                    maker.compressed(T0, bytes(300 << 20))
+                files = [maker.path, *maker.path.glob("*")]
+                self.assertLess(sum(file.stat().st_size for file in files), 8 << 20)
+                self.refused("more than 256 MiB once it is decompressed; write", maker.path)
+
     def test_without_rosbags(self):
         done = self.run_script("some.bag", python=(sys.executable, "-I", "-S"))
         says = "error: some.bag: reading bags needs the Python package rosbags; install it with: "
