@@ -1,14 +1,6 @@
 #include "tools/app/detector_choice.h"
 
-#include <fmt/format.h>
-
 namespace lcs::app {
-
-std::vector<std::string> arguments_of(const DetectorChoice& choice) {
-  if (choice.command.empty()) return {};
-  return {"--detector-command", choice.command, "--detector-timeout",
-          fmt::format("{} s", choice.timeout_s)};
-}
 
 comparators::DetectorSpec spec_of(const DetectorChoice& choice) {
   if (!choice.command.empty()) {

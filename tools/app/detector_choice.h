@@ -17,7 +17,7 @@ struct DetectorChoice {
 };
 
 /// The options that select the same detector program in a child process; empty for other detectors.
-std::vector<std::string> arguments_of(const DetectorChoice& choice);
+std::vector<std::string> arguments_of(DetectorChoice choice);
 
 /// \throws std::invalid_argument as the `comparators::spec_of` functions do.
 comparators::DetectorSpec spec_of(const DetectorChoice& choice);

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/files/output_file.h"
 #include "tools/report/worlds_page.h"
@@ -63,14 +62,6 @@ class Parts {
 };
 
 }  // namespace
-
-std::vector<std::string> arguments_of(const MergeRequest& request) {
-  CommandLine line({"merge"});
-  line.add(request.parts);
-  line.add("--out", request.place.out);
-  line.add("--baseline", request.place.baseline);
-  return line.words();
-}
 
 SuiteMade merge(const MergeRequest& request, Caller& caller) {
   const Parts own(request.parts, "");
