@@ -122,6 +122,32 @@ class Suites(InAFolder):
         with self.assertRaisesRegex(lcs.Error, "regular expression"):
             lcs.compare("out/before", "out/after", metric="(")
 
+    def test_arguments_are_those_of_the_options(self):
+        for call, said in (
+            (lambda: lcs.suite("small.yaml", sede=3), "no argument 'sede'; the nearest is 'seeds'"),
+            (lambda: lcs.suite("small.yaml", "more.yaml"), "1 arguments without a name, not 2"),
+            (lambda: lcs.suite("small.yaml", paths="small.yaml"), "paths is given twice"),
+            (lambda: lcs.merge(), "parts is missing"),
+            (lambda: lcs.suite("small.yaml", jobs="two"), r"suite\(\): jobs is 'two'"),
+            (lambda: lcs.suite("small.yaml", jobs=1.5), "jobs is 1.5"),
+            (lambda: lcs.suite("small.yaml", beside="klt"), r"beside is 'klt': its type is List"),
+            (lambda: lcs.suite("small.yaml", keep=3), "keep is 3"),
+            (lambda: lcs.suite(worlds=None), "worlds is None"),
+            (lambda: lcs.run(None), "scenario is None"),
+        ):
+            with self.assertRaisesRegex(TypeError, said):
+                call()
+        with self.assertRaisesRegex(lcs.Error, "--jobs: the number is"):
+            lcs.suite("small.yaml", jobs=-1)
+        with self.assertRaisesRegex(lcs.Error, "--frames: the number is"):
+            lcs.run("small.yaml", frames="0")
+
+    def test_a_default_may_be_given(self):
+        plain = lcs.compare("out/before", "out/after")
+        self.assertEqual(plain, lcs.compare("out/before", after="out/after", metric="", markdown=""))
+        with self.assertRaisesRegex(lcs.Error, "nowhere.yaml"):
+            lcs.generate("nowhere.yaml", frames=0, seed=None, formats=[], jobs=1, set=None, progress=None)
+
     def test_an_error_of_a_run_is_in_its_row(self):
         Path("broken.yaml").write_text("frames: many\n", encoding="utf-8")
         made = lcs.suite("broken.yaml", out="out/broken")

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "tools/app/option.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/verdict.h"
@@ -11,11 +12,15 @@
 namespace lcs::app {
 
 struct CompareRequest {
+  static constexpr const char* kCommand = "compare";
+
   std::string before, after;  ///< suite.json, or its folder
   std::string metric;         ///< regular expression; "": every metric
   std::string markdown;       ///< folder for the summary of a merge request; "": none
   std::string pictures_at;    ///< address of its pictures; "": beside it
 };
+
+Options options_of(CompareRequest& request);
 
 struct Compared {
   suite::SuiteResult before, after;

@@ -1,19 +1,11 @@
 #include "tools/app/detector_choice.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 #include <filesystem>
 
 #include "tools/input/inputs_read.h"
 
 namespace lcs::app {
-
-std::vector<std::string> arguments_of(const DetectorChoice& choice) {
-  if (choice.command.empty()) return {};
-  return {"--detector-command", choice.command, "--detector-timeout",
-          fmt::format("{} s", choice.timeout_s)};
-}
 
 namespace {
 

@@ -17,7 +17,7 @@ struct DetectorChoice {
 };
 
 /// The options that select the same detector program in a child process; empty for other detectors.
-std::vector<std::string> arguments_of(const DetectorChoice& choice);
+std::vector<std::string> arguments_of(DetectorChoice choice);
 
 /// The detector. Records the files that a detector's command names as inputs of this process.
 /// \throws std::invalid_argument as the `comparators::spec_of` functions do.

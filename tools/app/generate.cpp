@@ -14,7 +14,6 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/bench/detector.h"
 #include "tools/files/csv.h"
@@ -155,13 +154,17 @@ void make(const GenerateRequest& request, const sequence::GenerateOptions& what,
 
 std::vector<std::string> sequence_command(const GenerateRequest& request,
                                           const std::string& scenario, const std::string& out) {
-  CommandLine line({"generate", scenario, "--out", out, "--quiet"});
-  line.add("--formats", fmt::format("{}", fmt::join(request.formats, ",")));
-  line.add_flag("--add", request.add);
-  if (request.frames > 0) line.add("--frames", std::to_string(request.frames));
-  if (request.seed) line.add("--seed", std::to_string(*request.seed));
-  line.add_each("--set", request.sets);
-  return line.words();
+  GenerateRequest one;
+  one.paths = {scenario};
+  one.out = out;
+  one.formats = request.formats;
+  one.add = request.add;
+  one.frames = request.frames;
+  one.seed = request.seed;
+  one.sets = request.sets;
+  std::vector<std::string> words = arguments_of(one);
+  words.emplace_back("--quiet");
+  return words;
 }
 
 Generated generate(const GenerateRequest& request, Caller& caller) {

@@ -10,12 +10,15 @@
 
 #include "scenarios/scenario.h"
 #include "tools/app/caller.h"
+#include "tools/app/option.h"
 #include "tools/app/suite_worlds.h"
 #include "tools/sequence/generator.h"
 
 namespace lcs::app {
 
 struct GenerateRequest {
+  static constexpr const char* kCommand = "generate";
+
   std::vector<std::string> paths;    ///< one scenario file; with `suite`: files and folders
   bool suite = false;                ///< one sequence for each scenario and seed
   WorldsChoice worlds;               ///< a sequence for each world, in place of `paths`
@@ -34,6 +37,8 @@ struct GenerateRequest {
   /// Whether `generate_suite` makes it.
   bool is_of_many() const { return suite || !worlds.split.empty(); }
 };
+
+Options options_of(GenerateRequest& request);
 
 /// A sequence, or a part of one.
 struct Generated {

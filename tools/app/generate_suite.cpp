@@ -18,6 +18,10 @@ struct PlannedSequence {
   std::vector<std::string> command;
 };
 
+std::filesystem::path folder_of(const GenerateRequest& request) {
+  return request.out.empty() ? "data" : request.out;
+}
+
 /// Draws the worlds of a shard. \return their scenario files.
 std::vector<std::filesystem::path> draw_part(const GenerateRequest& request,
                                              const suite::Shard& shard, Caller& caller) {
@@ -43,7 +47,7 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
     paths = draw_part(request, shard, caller);
     shard = {};
   }
-  const std::filesystem::path folder = request.out.empty() ? "data" : request.out;
+  const std::filesystem::path folder = folder_of(request);
   std::vector<PlannedSequence> mine;
   std::size_t place = 0;
   for (const suite::PlannedScenario& planned : suite::plan({.paths = paths,
@@ -77,6 +81,8 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
 SequencesMade generate_suite(const GenerateRequest& request, Caller& caller) {
   SequencesMade made;
   const std::vector<PlannedSequence> sequences = plan_sequences(request, made, caller);
+  // A folder that cannot be made is told once, not by each sequence.
+  std::filesystem::create_directories(folder_of(request));
   std::vector<std::vector<std::string>> commands;
   for (const PlannedSequence& sequence : sequences) commands.push_back(sequence.command);
   std::size_t done = 0;

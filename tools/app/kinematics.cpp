@@ -7,7 +7,6 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "scenarios/shipped.h"
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/files/output.h"
 #include "tools/kinematics/study.h"
@@ -16,16 +15,6 @@
 #include "tools/suite/suite_run.h"
 
 namespace lcs::app {
-
-std::vector<std::string> arguments_of(const KinematicsRequest& request) {
-  CommandLine line({"kinematics"});
-  line.add("--config", request.config);
-  line.add_each("--set", request.sets);
-  line.add("--tolerance", fmt::format("{}", request.tolerance_px));
-  line.add_flag("--quick", request.quick);
-  line.add("--out", request.out);
-  return line.words();
-}
 
 KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
   const std::filesystem::path file = request.config.empty()

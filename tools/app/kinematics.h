@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "tools/app/caller.h"
+#include "tools/app/option.h"
 #include "tools/kinematics/answer.h"
 
 namespace lcs::app {
 
 struct KinematicsRequest {
+  static constexpr const char* kCommand = "kinematics";
+
   std::string config;             ///< scenario file; "": `crossing.yaml` of this project
   std::vector<std::string> sets;  ///< "key=value"
   std::string out = "out/kinematics";
@@ -19,8 +22,7 @@ struct KinematicsRequest {
   bool quick = false;
 };
 
-/// The command line that makes the same request, without `lcs`.
-std::vector<std::string> arguments_of(const KinematicsRequest& request);
+Options options_of(KinematicsRequest& request);
 
 struct KinematicsMade {
   std::vector<kinematics::Statement> answer;

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/files/output.h"
 #include "tools/files/written.h"
@@ -96,14 +95,6 @@ suite::SuiteResult merged(const std::vector<Part>& parts, const fs::path& within
 }
 
 }  // namespace
-
-std::vector<std::string> arguments_of(const MergeRequest& request) {
-  CommandLine line({"merge"});
-  line.add(request.parts);
-  line.add("--out", request.place.out);
-  line.add("--baseline", request.place.baseline);
-  return line.words();
-}
 
 SuiteMade merge(const MergeRequest& request, Caller& caller) {
   std::vector<Part> parts;

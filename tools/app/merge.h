@@ -5,17 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "tools/app/option.h"
 #include "tools/app/suite_end.h"
 
 namespace lcs::app {
 
 struct MergeRequest {
+  static constexpr const char* kCommand = "merge";
+
   std::vector<std::string> parts;  ///< folders
   SuitePlace place;
 };
 
-/// The command line that makes the same request, without `lcs`.
-std::vector<std::string> arguments_of(const MergeRequest& request);
+Options options_of(MergeRequest& request);
 
 /// \throws bench::OutputError, std::exception; then nothing is written.
 SuiteMade merge(const MergeRequest& request, Caller& caller);

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "scenarios/load.h"
-#include "tools/app/command_line.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
 #include "tools/input/document.h"
@@ -43,6 +42,12 @@ void put(Value& map, const std::string& key, Value value) {
   }
 }
 
+/// The type of a key's value; "" for one without an option.
+std::string_view type_of(std::string_view key) {
+  const auto found = std::ranges::find(recording_keys(), key, &RecordingKey::key);
+  return found == recording_keys().end() ? "" : found->type;
+}
+
 Value recording_of(const ReplayRequest& request) {
   Value recording(Value::Kind::map, {request.path, 0}), topics(Value::Kind::map, {request.path, 0});
   put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, request.path});
@@ -55,7 +60,7 @@ Value recording_of(const ReplayRequest& request) {
     } else if (key.starts_with(kTopics)) {
       put(topics, key.substr(kTopics.size()), scalar(flag, text));
     } else {
-      const bool is_list = key == "centre" || key == "mount" || key == "distortion";
+      const bool is_list = type_of(key).find(',') != std::string_view::npos;
       put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
     }
   }
@@ -104,10 +109,8 @@ std::string name_of(const fs::path& path) {
 /// Makes all paths absolute, because a scenario's paths are relative to its file.
 void make_absolute(Value& recording) {
   for (input::Entry& entry : recording.entries) {
-    for (const char* key : {"path", "times", "poses", "imu", "odometry", "calibration",
-                            "imu_calibration", "mask", "labels"}) {
-      if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
-    }
+    const bool is_path = entry.key == "path" || type_of(entry.key) == "FILE";
+    if (is_path) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
   }
 }
 
@@ -120,27 +123,6 @@ std::string flag_of(const std::string& key) {
   }
   std::replace(flag.begin(), flag.end(), '_', '-');
   return flag;
-}
-
-std::vector<std::string> arguments_of(const ReplayRequest& request) {
-  app::CommandLine line({"replay", request.path});
-  for (const auto& [key, text] : request.recording) {
-    if (key == kNothingMoves) {
-      line.add_flag("--nothing-moves", true);
-    } else {
-      line.add(flag_of(key).c_str(), text);
-    }
-  }
-  line.add("--ego-motion", request.ego_motion);
-  line.add("--corners", request.corners);
-  line.add("--fast-threshold", request.fast_threshold);
-  line.add("--detector", request.detector.name);
-  line.add(arguments_of(request.detector));
-  line.add("--preset", request.preset);
-  line.add_each("--set", request.sets);
-  line.add_each("--beside", request.beside);
-  line.add("--out", request.out);
-  return line.words();
 }
 
 void write_scenario(const ReplayRequest& request, const fs::path& path,
@@ -162,7 +144,7 @@ RunMade replay(const ReplayRequest& request, Caller& caller) {
   run.out = request.out;
   run.detector = request.detector;
   run.beside = request.beside;
-  run.no_video = request.no_video;
+  run.video = request.video;
   run.events = request.events;
   run.threads = request.threads;
   run.command = arguments_of(request);

@@ -4,39 +4,49 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "tools/app/option.h"
 #include "tools/app/run.h"
 #include "tools/files/output.h"
 
 namespace lcs::app {
 
-/// The key of `recording` whose option is a flag.
-inline constexpr const char* kNothingMoves = "nothing_moves";
+/// A key of `recording` that an option of its own sets. The scenario loader checks its value.
+struct RecordingKey {
+  const char* key;
+  const char* type;  ///< "FILE": a path; with commas: a list; "": a flag
+  const char* about;
+};
+
+/// All but `format`, whose help text lists the layouts.
+std::span<const RecordingKey> recording_keys();
 
 struct ReplayRequest {
-  std::string path;                              ///< folder or video of the recording
-  std::map<std::string, std::string> recording;  ///< keys and values of a scenario's `recording`
-  std::string ego_motion;                        ///< imu or truth; "": the recording's default
-  std::string corners;                           ///< their source; "": pictures
-  std::string fast_threshold;                    ///< "": the recording's default
-  std::string preset;                            ///< "": the recording's default
-  std::vector<std::string> sets;                 ///< filter settings, "key=value"
-  DetectorChoice detector;
-  std::vector<std::string> beside;  ///< as in `RunRequest`
-  std::string out;                  ///< folder; "" is `out/<name of the recording>`
-  bool no_video = false;
+  static constexpr const char* kCommand = "replay";
+
+  std::string path = {};                              ///< folder or video of the recording
+  std::map<std::string, std::string> recording = {};  ///< of a scenario's `recording`
+  std::string ego_motion = {};                        ///< imu or truth; "": the recording's default
+  std::string corners = {};                           ///< their source; "": pictures
+  std::string fast_threshold = {};                    ///< "": the recording's default
+  std::string preset = {};                            ///< "": the recording's default
+  std::vector<std::string> sets = {};                 ///< filter settings, "key=value"
+  DetectorChoice detector = {};
+  std::vector<std::string> beside = {};  ///< as in `RunRequest`
+  std::string out = {};                  ///< folder; "" is `out/<name of the recording>`
+  bool video = true;
   bool events = false;
   int threads = 1;  ///< as in `RunRequest`
 };
 
+Options options_of(ReplayRequest& request);
+
 /// The option of a key of `recording`: --fps for fps, --image-topic for topics.image, --world-frame
 /// for topics.world.
 std::string flag_of(const std::string& key);
-
-/// The command line that makes the same request, without `lcs`.
-std::vector<std::string> arguments_of(const ReplayRequest& request);
 
 /// \throws as `run`.
 RunMade replay(const ReplayRequest& request, Caller& caller);

@@ -15,7 +15,6 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/app/version.h"
 #include "tools/bench/bench.h"
@@ -98,7 +97,7 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
   require_same_files(request, scenario);
   const auto earlier = std::make_shared<bench::EarlierRun>(request.recorded, scenario, camera);
   const bool is_program = !request.detector.command.empty();
-  const bool with_images = !request.no_video || request.view || is_program;
+  const bool with_images = request.video || request.view || is_program;
   if (is_program && !earlier->pictures()) {
     throw std::invalid_argument(
         fmt::format("{} has no pictures to hand to {}; record it with --events", request.recorded,
@@ -173,16 +172,14 @@ std::vector<Watching> watching(const RunRequest& request, const scenario::Scenar
 std::string command_of(const RunRequest& request, const scenario::Scenario& scenario,
                        const Watching& watching, bool is_own) {
   if (!request.command.empty()) return suite::shell_line(request.command);
-  CommandLine line({"run", request.scenario, "--seed", std::to_string(scenario.seed)});
-  line.add_each("--set", request.sets);
-  line.add("--frames", request.frames);
-  if (watching.spec.name != "lcs") line.add("--detector", watching.spec.name);
-  line.add("--recorded", request.recorded);
-  if (is_own) {
-    line.add("--detections", request.detector.detections);
-    line.add(arguments_of(request.detector));
-  }
-  return suite::shell_line(line.words());
+  RunRequest one{.scenario = request.scenario,
+                 .seed = scenario.seed,
+                 .sets = request.sets,
+                 .frames = request.frames,
+                 .recorded = request.recorded};
+  if (is_own) one.detector = request.detector;
+  one.detector.name = watching.spec.name == "lcs" ? "" : watching.spec.name;
+  return suite::shell_line(arguments_of(one));
 }
 
 /// Writes run.json.
@@ -275,7 +272,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
     what.compressed = request.gzip;
     what.is_truth_there = &one != &own || is_truth_there;
     if (&one == &own) {
-      if (!request.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
+      if (request.video) what.video_frames_per_second = scenario.camera.rate_hz;
       if (request.view) what.show = request.view(scenario);
       what.events = request.events || request.report;
       if (request.report) {

@@ -13,6 +13,7 @@
 #include "scenarios/scenario.h"
 #include "tools/app/caller.h"
 #include "tools/app/detector_choice.h"
+#include "tools/app/option.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 
@@ -22,17 +23,19 @@ namespace lcs::app {
 using ShowFrame = std::function<bool(const cv::Mat3b& sheet)>;
 
 struct RunRequest {
-  std::string scenario;  ///< scenario file
-  std::string out;       ///< folder; "" is out/<scenario's name>
-  std::optional<std::uint64_t> seed;
-  std::vector<std::string> sets;  ///< "key=value"
-  std::string frames = {};        ///< number of frames; "": as in the scenario
-  DetectorChoice detector;
-  std::vector<std::string> beside;  ///< "detector=folder": further detectors on the same frames
-  std::string recorded;  ///< folder of an earlier run that provides the frames; "": simulate
+  static constexpr const char* kCommand = "run";
+
+  std::string scenario = {};  ///< scenario file
+  std::string out = {};       ///< folder; "" is out/<scenario's name>
+  std::optional<std::uint64_t> seed = {};
+  std::vector<std::string> sets = {};  ///< "key=value"
+  std::string frames = {};             ///< number of frames; "": as in the scenario
+  DetectorChoice detector = {};
+  std::vector<std::string> beside = {};  ///< "detector=folder" of further detectors
+  std::string recorded = {};  ///< folder of an earlier run that provides the frames; "": simulate
   bench::Keep keep = bench::Keep::all;
   bool gzip = false;  ///< compress layers and truth
-  bool no_video = false;
+  bool video = true;
   bool events = false;
   bool report = false;  ///< write report.html, and with it events.json
   int threads = 1;      ///< 1 or 2, as of `bench::run`; 2 not with `view`
@@ -40,6 +43,8 @@ struct RunRequest {
   std::function<ShowFrame(const scenario::Scenario&)> view = {};
   std::vector<std::string> command = {};  ///< of a request that is carried out as this one
 };
+
+Options options_of(RunRequest& request);
 
 /// What a detector has reached in a run.
 struct DetectorMade {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/files/output.h"
 #include "tools/recording/detections.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
@@ -113,7 +114,7 @@ Scored score(const ScoreRequest& request, Caller& caller) {
   std::vector<bench::Output*> outputs;
   std::optional<bench::Output> figures, verdicts;
   const auto add = [&](std::optional<bench::Output>& output, const std::string& file) {
-    if (!file.empty()) outputs.push_back(&output.emplace(file, request.overwrite));
+    if (!file.empty()) outputs.push_back(&output.emplace(file, bench::overwrite(request.force)));
   };
   add(figures, request.out);
   add(verdicts, request.write_detections);

@@ -6,19 +6,23 @@
 #include <string>
 
 #include "tools/app/caller.h"
-#include "tools/files/output.h"
+#include "tools/app/option.h"
 #include "tools/scoring/scoring.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::app {
 
 struct ScoreRequest {
+  static constexpr const char* kCommand = "score";
+
   std::string sequence = {};          ///< folder of a run, or of a suite
   std::string detections = {};        ///< CSV file; "": score the run's own detector
   std::string out = {};               ///< file for the figures; "": none
   std::string write_detections = {};  ///< CSV file for the verdicts; "": none
-  bench::Overwrite overwrite = bench::Overwrite::own_or_forced;
+  bool force = false;                 ///< replace files that lcs did not write
 };
+
+Options options_of(ScoreRequest& request);
 
 /// The figures of a run; of a suite only `suite` is set.
 struct Scored {

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "scenarios/scenes.h"
-#include "tools/app/command_line.h"
 #include "tools/app/how_made.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
@@ -230,31 +229,6 @@ void begin(bench::Output& folder, const bench::Provenance& provenance,
 }
 
 }  // namespace
-
-std::vector<std::string> arguments_of(const SuiteRequest& request) {
-  CommandLine line({"suite"});
-  line.add(request.paths);
-  line.add("--group", request.group.value_or(""));
-  line.add("--filter", request.filter);
-  if (request.jobs > 0) line.add("--jobs", std::to_string(request.jobs));
-  line.add("--worlds", request.worlds.split);
-  if (!request.worlds.split.empty()) line.add("--count", std::to_string(request.worlds.count));
-  line.add("--family", request.worlds.family);
-  if (request.seeds) line.add("--seeds", std::to_string(*request.seeds));
-  line.add("--detector", request.detector.name);
-  line.add(arguments_of(request.detector));
-  line.add("--recorded", request.recorded);
-  line.add("--detections", request.detector.detections);
-  line.add_each("--beside", request.beside);
-  line.add_each("--set", request.sets);
-  if (request.keep != bench::Keep::all) line.add("--keep", std::string(word_of(request.keep)));
-  line.add("--shard", request.shard);
-  line.add("--times", request.times);
-  line.add("--out", request.place.out);
-  line.add("--baseline", request.place.baseline);
-  line.add_flag("--anew", request.anew);
-  return line.words();
-}
 
 SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
   std::optional<suite::SuiteResult> times;

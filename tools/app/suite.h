@@ -9,6 +9,7 @@
 
 #include "tools/app/caller.h"
 #include "tools/app/detector_choice.h"
+#include "tools/app/option.h"
 #include "tools/app/suite_end.h"
 #include "tools/app/suite_worlds.h"
 #include "tools/output/result.h"
@@ -18,6 +19,8 @@
 namespace lcs::app {
 
 struct SuiteRequest {
+  static constexpr const char* kCommand = "suite";
+
   std::vector<std::string> paths;    ///< scenario files and folders; empty: the project's own
   std::optional<std::string> group;  ///< absent: all for named paths, else `short`
   std::string filter;                ///< regular expression that names must match
@@ -35,8 +38,7 @@ struct SuiteRequest {
   SuitePlace place;
 };
 
-/// The command line that makes the same request, without `lcs`.
-std::vector<std::string> arguments_of(const SuiteRequest& request);
+Options options_of(SuiteRequest& request);
 
 /// The planned runs, and of which whole they are a part.
 struct SuitePlan {

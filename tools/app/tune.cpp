@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/app/command_line.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
@@ -107,18 +106,12 @@ tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
   return found;
 }
 
-}  // namespace
-
-std::vector<std::string> arguments_of(const TuneRequest& request) {
-  CommandLine line({"tune"});
-  line.add(request.suites);
-  line.add("--validate", fmt::format("{}", fmt::join(request.validate, ",")));
-  line.add("--keys", fmt::format("{}", fmt::join(request.keys, ",")));
-  line.add_each("--set", request.sets);
-  line.add("--evaluations", std::to_string(request.evaluations));
-  line.add("--seed", std::to_string(request.seed));
-  return line.words();
+TuneRequest without_place(TuneRequest request) {
+  request.out = TuneRequest{}.out;
+  return request;
 }
+
+}  // namespace
 
 TuneMade tune(const TuneRequest& request, Caller& caller) {
   const auto check = [&] { caller.check(); };
@@ -172,7 +165,7 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
   caller.check();
   const tune::Circumstances circumstances{
       fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
-      arguments_of(request)};
+      arguments_of(without_place(request))};
   std::string record = tune::record_text(found, stated, circumstances);
   bench::write_file(preset_file.staging(),
                     tune::preset_text(with_other_learnt(found, start), circumstances));

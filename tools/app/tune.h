@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "tools/app/caller.h"
+#include "tools/app/option.h"
 #include "tools/tune/record.h"
 #include "tools/tune/search.h"
 
 namespace lcs::app {
 
 struct TuneRequest {
+  static constexpr const char* kCommand = "tune";
+
   std::vector<std::string> suites;
   std::vector<std::string> validate;  ///< suites on which the result is only stated
   std::vector<std::string> keys;
@@ -23,8 +26,7 @@ struct TuneRequest {
   std::string out = "out/tune";
 };
 
-/// The command line that makes the same request, without `lcs` and its place.
-std::vector<std::string> arguments_of(const TuneRequest& request);
+Options options_of(TuneRequest& request);
 
 struct TuneMade {
   tune::Found found;

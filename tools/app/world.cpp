@@ -1,6 +1,5 @@
 #include "tools/app/world.h"
 
-#include "tools/app/command_line.h"
 #include "tools/files/output.h"
 #include "tools/files/output_file.h"
 #include "tools/sequence/png.h"
@@ -8,14 +7,6 @@
 #include "tools/worlds/textures.h"
 
 namespace lcs::app {
-
-std::vector<std::string> arguments_of(const WorldRequest& request) {
-  CommandLine line({"world", request.family, "--seed", std::to_string(request.seed)});
-  line.add("--out", request.out);
-  line.add("--pictures", request.pictures);
-  line.add_flag("--sheet", request.sheet);
-  return line.words();
-}
 
 WorldMade world(const WorldRequest& request, Caller& caller) {
   std::vector<std::string> pictures;

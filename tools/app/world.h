@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "tools/app/caller.h"
+#include "tools/app/option.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 
 struct WorldRequest {
+  static constexpr const char* kCommand = "world";
+
   std::string family;
   std::uint64_t seed = 1;
   std::string out;            ///< folder; "": out/worlds/FAMILY_SEED
@@ -20,8 +23,7 @@ struct WorldRequest {
   bool sheet = false;
 };
 
-/// The command line that makes the same request, without `lcs`.
-std::vector<std::string> arguments_of(const WorldRequest& request);
+Options options_of(WorldRequest& request);
 
 /// A world that is written, and its folder.
 struct WorldMade {

@@ -65,6 +65,11 @@ enum class Overwrite {
   any_file        ///< any regular file, as `--force` asks for
 };
 
+/// \param force whether the user gave --force.
+constexpr Overwrite overwrite(bool force) {
+  return force ? Overwrite::any_file : Overwrite::own_or_forced;
+}
+
 /// What remains of a folder of results if its command ends before `commit`.
 enum class Unfinished {
   removed,

@@ -2,12 +2,9 @@
 /// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "tools/app/compare.h"
 #include "tools/input/message.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -16,6 +13,7 @@ namespace {
 struct CompareOptions {
   app::CompareRequest request;
   bool all = false;
+  bool fail_on_regression = true;  ///< always
 };
 
 constexpr const char* kHelp = R"(Examples:
@@ -52,40 +50,22 @@ ExitCode compare(const CompareOptions& options) {
   return comparison.has_regressed() ? kRegressed : kFine;
 }
 
+app::Options options_of(CompareOptions& options) {
+  app::Options all = app::options_of(options.request);
+  all.add("--all", "", &options.all,
+          "Also unchanged figures, and figures without a better direction");
+  all.add(
+      "--fail-on-regression", "", &options.fail_on_regression,
+      "Exit with 1 after a regression: this command always does, lcs suite only if it is asked");
+  return all;
+}
+
 }  // namespace
 
-Command add_compare_command(CLI::App& app) {
-  const auto owned = std::make_shared<CompareOptions>();
-  CompareOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "compare", "List the figures that got better or worse between two suites, beyond noise");
-  command.add_option("BEFORE", options.request.before, "A suite.json, or the folder of a suite")
-      ->required()
-      ->type_name("");
-  command.add_option("AFTER", options.request.after, "Another one")->required()->type_name("");
-  command
-      .add_option("--metric", options.request.metric,
-                  "Only figures with this regular expression in their name")
-      ->type_name("REGEX");
-  command.add_flag("--all", options.all,
-                   "Also unchanged figures, and figures without a better direction");
-  command.add_flag_callback(
-      "--fail-on-regression", [] {},
-      "Exit with 1 after a regression: this command always does, lcs suite only if it is "
-      "asked");
-  command
-      .add_option("--markdown", options.request.markdown,
-                  "Folder for summary.md, for the discussion of a merge request, and two pictures "
-                  "of the event that grew most")
-      ->type_name("DIR")
-      ->group(kOutputs);
-  command
-      .add_option("--pictures-at", options.request.pictures_at,
-                  "Address where the pictures will be; beside summary.md if not given")
-      ->type_name("URL")
-      ->needs("--markdown");
-  command.footer(kHelp);
-  return {command, [owned] { return compare(*owned); }};
+Command compare_command() {
+  return command_of("compare",
+                    "List the figures that got better or worse between two suites, beyond noise",
+                    kHelp, &compare);
 }
 
 }  // namespace lcs::tools

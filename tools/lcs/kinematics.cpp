@@ -1,19 +1,14 @@
 /// \file
 /// `lcs kinematics`: the conditions under which the kinematics model holds for a camera and rover.
-#include <memory>
 
 #include "tools/app/kinematics.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
 
-struct KinematicsOptions {
-  app::KinematicsRequest request;
-  bool quiet = false;
-};
+using KinematicsOptions = Quietable<app::KinematicsRequest>;
 
 constexpr const char* kHelp = R"(Examples:
   lcs kinematics                                    the camera and rover of scenarios/crossing.yaml
@@ -46,8 +41,6 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
-constexpr input::Quantity kTolerance{input::Dimension::pixels, {0, 1000, true}};
-
 ExitCode kinematics(const KinematicsOptions& options) {
   Terminal terminal(options.quiet);
   const app::KinematicsMade made = app::kinematics(options.request, terminal);
@@ -57,28 +50,10 @@ ExitCode kinematics(const KinematicsOptions& options) {
 
 }  // namespace
 
-Command add_kinematics_command(CLI::App& app) {
-  const auto owned = std::make_shared<KinematicsOptions>();
-  KinematicsOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "kinematics",
-      "Measure when the motion model holds for a camera and rover, against the truth");
-  command
-      .add_option(
-          "--config", options.request.config,
-          "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given")
-      ->type_name("FILE");
-  add_set_option(command, options.request.sets,
-                 "Set a value of the scenario, as \"camera.fovy=90 deg\"");
-  add_out_option(command, options.request.out, "out/kinematics");
-  add_quantity_option(command, "--tolerance", kTolerance, options.request.tolerance_px,
-                      "Largest acceptable error of a prediction; 1 px if not given")
-      ->type_name("PX");
-  command.add_flag("--quick", options.request.quick,
-                   "Fewer frames and seeds: a quarter of the time");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return {command, [owned] { return kinematics(*owned); }};
+Command kinematics_command() {
+  return command_of("kinematics",
+                    "Measure when the motion model holds for a camera and rover, against the truth",
+                    kHelp, &kinematics);
 }
 
 }  // namespace lcs::tools

@@ -1,6 +1,5 @@
 /// \file
 /// `lcs merge`: joins the parts of a suite that `lcs suite --shard` made.
-#include <memory>
 
 #include "tools/app/merge.h"
 #include "tools/lcs/commands.h"
@@ -31,19 +30,18 @@ ExitCode merge(const MergeOptions& options) {
   return show_suite(app::merge(options.request, terminal), options.request.place, options.end);
 }
 
+app::Options options_of(MergeOptions& options) {
+  app::Options all = app::options_of(options.request);
+  add_suite_end(all, options.end);
+  return all;
+}
+
 }  // namespace
 
-Command add_merge_command(CLI::App& app) {
-  const auto owned = std::make_shared<MergeOptions>();
-  MergeOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "merge", "Join the parts of a suite that several machines made (lcs suite --shard)");
-  command.add_option("DIR", options.request.parts, "The folders of all parts")
-      ->required()
-      ->type_name("");
-  add_suite_end_options(command, options.request.place, options.end);
-  command.footer(kHelp);
-  return {command, [owned] { return merge(*owned); }};
+Command merge_command() {
+  return command_of("merge",
+                    "Join the parts of a suite that several machines made (lcs suite --shard)",
+                    kHelp, &merge);
 }
 
 }  // namespace lcs::tools

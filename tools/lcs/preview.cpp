@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "tools/files/output.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/preview/preview.h"
@@ -80,11 +78,11 @@ ExitCode preview(const PreviewOptions& options) {
       scenario::load(scenario_file(options.scenario), {.sets = options.sets, .seed = options.seed});
   bench::Output page(options.out.empty() ? fs::path("out") / "preview" / (scenario.name + ".html")
                                          : fs::path(options.out),
-                     overwrite(options.force));
+                     bench::overwrite(options.force));
   std::vector<bench::Output*> outputs{&page};
   std::optional<bench::Output> world;
   if (!options.mjcf.empty()) {
-    outputs.push_back(&world.emplace(options.mjcf, overwrite(options.force)));
+    outputs.push_back(&world.emplace(options.mjcf, bench::overwrite(options.force)));
   }
   const preview::Preview p = [&] {
     Progress progress(scenario.name, scenario.frames, options.quiet);
@@ -106,27 +104,26 @@ ExitCode preview(const PreviewOptions& options) {
   return p.wrong.empty() ? kFine : kCriterionFailed;
 }
 
+app::Options options_of(PreviewOptions& options) {
+  app::Options all;
+  all.add_scenario(options.scenario);
+  all.add("--out", "FILE", &options.out, "The page; out/preview/SCENARIO.html if not given",
+          {.is_output = true});
+  all.add_force(options.force);
+  all.add("--mjcf", "FILE", &options.mjcf,
+          "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb", {.is_output = true});
+  all.add_seed(&options.seed);
+  all.add_set(options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
+  all.add("--quiet", "", &options.quiet, "Print only the problems");
+  return all;
+}
+
 }  // namespace
 
-Command add_preview_command(CLI::App& app) {
-  const auto owned = std::make_shared<PreviewOptions>();
-  PreviewOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "preview", "Check a scenario before a run: its plan, three pictures, its problems");
-  command
-      .add_option("SCENARIO", options.scenario,
-                  "The scenario: a YAML file, or the name of one of the project, as night")
-      ->required()
-      ->type_name("");
-  add_output_file_option(command, "--out", options.out, options.force,
-                         "The page; out/preview/SCENARIO.html if not given");
-  add_output_file_option(command, "--mjcf", options.mjcf, options.force,
-                         "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb");
-  add_seed_option(command, options.seed);
-  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  command.add_flag("--quiet", options.quiet, "Print only the problems");
-  command.footer(kHelp);
-  return {command, [owned] { return preview(*owned); }};
+Command preview_command() {
+  return command_of("preview",
+                    "Check a scenario before a run: its plan, three pictures, its problems", kHelp,
+                    &preview);
 }
 
 }  // namespace lcs::tools

@@ -6,12 +6,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "tools/lcs/commands.h"
-#include "tools/lcs/detector_option.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/view.h"
 #include "tools/output/table.h"
@@ -22,6 +19,7 @@ namespace {
 
 struct RunOptions {
   app::RunRequest request;
+  bool keys = false;  ///< print the keys of a scenario file in place of a run
   bool view = false;  ///< show the run in a window
   bool quiet = false;
 };
@@ -119,58 +117,26 @@ ExitCode run(const RunOptions& options) {
   return code;
 }
 
+app::Options options_of(RunOptions& options) {
+  app::Options all = app::options_of(options.request);
+  all.add("--keys", "", &options.keys,
+          "Print every key of a scenario file: meaning, default, values",
+          {.prints = scenario::keys_text});
+  all.add("--view", "", &options.view,
+          "Show the four panels in a window while it runs, no faster than the camera: space pauses "
+          "and goes on, . goes on by one frame, q closes the window");
+  all.add_quiet(options.quiet);
+  return all;
+}
+
 }  // namespace
 
-Command add_run_command(CLI::App& app) {
-  const auto owned = std::make_shared<RunOptions>();
-  RunOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
+Command run_command() {
+  return command_of(
       "run",
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
-      "score it by the truth");
-  command
-      .add_option("SCENARIO", options.request.scenario,
-                  "The scenario: a YAML file, or the name of one of the project, as night")
-      ->required()
-      ->type_name("");
-  command.set_version_flag("--keys", scenario::keys_text,
-                           "Print every key of a scenario file: meaning, default, values");
-  add_out_option(command, options.request.out, "out/<scenario>");
-  add_seed_option(command, options.request.seed);
-  command
-      .add_option("--frames", options.request.frames, "Frames to run, instead of the scenario's")
-      ->type_name("N");
-  add_set_option(command, options.request.sets,
-                 "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  add_detector_option(command, options.request.detector, kPresetDetector);
-  add_beside_option(command, options.request.beside);
-  CLI::Option* recorded =
-      command
-          .add_option(
-              "--recorded", options.request.recorded,
-              "Take corners, motion and truth from an earlier run of the same scenario and seed, "
-              "instead of simulating")
-          ->type_name("DIR");
-  command
-      .add_option("--detections", options.request.detector.detections,
-                  "With --recorded: the answers of a detector of yours to these frames, a CSV file "
-                  "(tools/recording/DETECTIONS.md)")
-      ->type_name("FILE")
-      ->needs(recorded)
-      ->excludes(command.get_option("--detector-command"));
-  add_result_options(command, options.request.no_video, options.request.events);
-  add_keep_option(command, options.request.keep);
-  command.add_flag("--gzip", options.request.gzip, "Compress layers.jsonl and truth.jsonl (.gz)");
-  command.add_flag("--report", options.request.report,
-                   "Write report.html too, a page of the run with its video, and events.json");
-  command.add_flag(
-      "--view", options.view,
-      "Show the four panels in a window while it runs, no faster than the camera: space "
-      "pauses and goes on, . goes on by one frame, q closes the window");
-  add_threads_option(command, options.request.threads)->excludes("--view");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return {command, [owned] { return run(*owned); }};
+      "score it by the truth",
+      kHelp, &run);
 }
 
 }  // namespace lcs::tools

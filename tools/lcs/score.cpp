@@ -2,12 +2,9 @@
 /// `lcs score`: computes a run's figures from its files, for its own or another detector.
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "tools/app/score.h"
 #include "tools/input/message.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/output/table.h"
 #include "tools/suite/suite_table.h"
@@ -15,11 +12,7 @@
 namespace lcs::tools {
 namespace {
 
-struct ScoreOptions {
-  app::ScoreRequest request;
-  bool force = false;
-  bool quiet = false;
-};
+using ScoreOptions = Quietable<app::ScoreRequest>;
 
 constexpr const char* kHelp = R"(Examples:
   lcs score out/crossing                                    the figures of a run
@@ -47,9 +40,7 @@ Exit codes:
 
 ExitCode score(const ScoreOptions& options) {
   Terminal terminal(options.quiet);
-  app::ScoreRequest request = options.request;
-  request.overwrite = overwrite(options.force);
-  const auto [run, frames, metrics, suite] = app::score(request, terminal);
+  const auto [run, frames, metrics, suite] = app::score(options.request, terminal);
   if (options.quiet) return kFine;
   if (suite) {
     print_out("{}", suite::suite_table(*suite, false));
@@ -64,26 +55,10 @@ ExitCode score(const ScoreOptions& options) {
 
 }  // namespace
 
-Command add_score_command(CLI::App& app) {
-  const auto owned = std::make_shared<ScoreOptions>();
-  ScoreOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "score", "Score a run by its files, or someone else's detector on the same frames");
-  command.add_option("--sequence,DIR", options.request.sequence, "Folder of a run, or of a suite")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--detections", options.request.detections,
-                  "Score the answers in this CSV file instead of the run's own detector")
-      ->type_name("FILE");
-  add_output_file_option(command, "--out", options.request.out, options.force,
-                         "Write the figures to this file, as metrics.json has them");
-  add_output_file_option(command, "--write-detections", options.request.write_detections,
-                         options.force,
-                         "Write the verdicts and boxes that are scored to this CSV file");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return {command, [owned] { return score(*owned); }};
+Command score_command() {
+  return command_of("score",
+                    "Score a run by its files, or someone else's detector on the same frames",
+                    kHelp, &score);
 }
 
 }  // namespace lcs::tools

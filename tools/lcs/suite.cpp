@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <memory>
-
 #include <algorithm>
 
 #include "tools/app/suite.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/detector_option.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/suite_end.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/worlds_option.h"
 
 namespace lcs::tools {
 namespace {
@@ -24,9 +19,6 @@ struct SuiteOptions {
   bool list = false;
   SuiteEndOptions end;
 };
-
-constexpr int kMostJobs = 1024;
-constexpr int kMostSeeds = 1000;
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
@@ -106,76 +98,19 @@ ExitCode suite(const SuiteOptions& options) {
                     options.end);
 }
 
+app::Options options_of(SuiteOptions& options) {
+  app::Options all = app::options_of(options.request);
+  add_suite_end(all, options.end);
+  all.add("--list", "", &options.list, "Only list the runs");
+  return all;
+}
+
 }  // namespace
 
-Command add_suite_command(CLI::App& app) {
-  const auto owned = std::make_shared<SuiteOptions>();
-  SuiteOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand(
-      "suite", "Run many scenarios with several seeds each, in parallel, and sum them up");
-  command
-      .add_option("PATH", options.request.paths,
-                  "Scenario files, and folders of them; the project's own if not given")
-      ->type_name("");
-  command
-      .add_option(
-          "--group", options.request.group,
-          "Only scenarios of this group; 'all' for any. If not given: any of paths that are "
-          "named, short of the project's own")
-      ->type_name("NAME");
-  command
-      .add_option("--filter", options.request.filter,
-                  "Only scenarios with this regular expression in their name")
-      ->type_name("REGEX");
-  add_integer_option(command, "--jobs", options.request.jobs,
-                     "Runs at a time; if not given, as many as there are processors", 1, kMostJobs)
-      ->type_name("N");
-  add_worlds_options(command, options.request.worlds)->excludes("PATH");
-  add_integer_option(command, "--seeds", options.request.seeds,
-                     "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
-      ->type_name("N");
-  add_detector_option(command, options.request.detector, kPresetDetector);
-  CLI::Option* recorded =
-      command
-          .add_option("--recorded", options.request.recorded,
-                      "Take corners, motion and truth from an earlier suite instead of simulating, "
-                      "which takes seconds")
-          ->type_name("DIR");
-  command
-      .add_option("--detections", options.request.detector.detections,
-                  "With --recorded: the answers of a detector of yours, a folder of CSV files "
-                  "(tools/recording/DETECTIONS.md), SCENARIO/seed-N.csv for each run")
-      ->type_name("DIR")
-      ->needs(recorded)
-      ->excludes(command.get_option("--detector-command"));
-  command
-      .add_option(
-          "--beside", options.request.beside,
-          "Run this detector too on the same frames, as klt or lcs:lab, and print F1 beside "
-          "each other; may be repeated")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  add_set_option(command, options.request.sets,
-                 "Set a value in every scenario, as \"camera.rate=5 Hz\"");
-  add_keep_option(command, options.request.keep);
-  command
-      .add_option(
-          "--shard", options.request.shard,
-          "Only a part of the runs, as 2/5, on one of several machines; lcs merge joins the "
-          "parts")
-      ->type_name("I/N");
-  command
-      .add_option("--times", options.request.times,
-                  "With --shard: an earlier suite, whose times balance the parts; the same for "
-                  "all parts")
-      ->type_name("FILE")
-      ->needs("--shard");
-  add_suite_end_options(command, options.request.place, options.end);
-  command.add_flag("--anew", options.request.anew,
-                   "Drop the runs of an unfinished suite in the same place, and begin again");
-  command.add_flag("--list", options.list, "Only list the runs");
-  command.footer(kHelp);
-  return {command, [owned] { return suite(*owned); }};
+Command suite_command() {
+  return command_of("suite",
+                    "Run many scenarios with several seeds each, in parallel, and sum them up",
+                    kHelp, &suite);
 }
 
 }  // namespace lcs::tools

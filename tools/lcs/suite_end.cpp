@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tools/input/message.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/judgement.h"
@@ -52,19 +51,12 @@ ExitCode exit_code(suite::Outcome outcome) {
 
 }  // namespace
 
-void add_suite_end_options(CLI::App& command, app::SuitePlace& place, SuiteEndOptions& options) {
-  add_out_option(command, place.out, app::SuitePlace::kDefault);
-  CLI::Option* baseline =
-      command
-          .add_option("--baseline", place.baseline,
-                      "An earlier suite.json or its folder, to show changes against")
-          ->type_name("FILE");
-  command
-      .add_flag("--fail-on-regression", options.fail_on_regression,
-                "Exit with 1 after a regression against the baseline, as lcs compare does")
-      ->needs(baseline);
-  command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
-  add_quiet_option(command, options.quiet);
+void add_suite_end(app::Options& all, SuiteEndOptions& options) {
+  all.add("--fail-on-regression", "", &options.fail_on_regression,
+          "Exit with 1 after a regression against the baseline, as lcs compare does",
+          {.needs = "--baseline"});
+  all.add("--worst-first", "", &options.worst_first, "Sort the table by F1");
+  all.add_quiet(options.quiet);
 }
 
 ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,

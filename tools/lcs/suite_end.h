@@ -2,8 +2,7 @@
 /// The end of a suite on the terminal: tables and exit code. `lcs suite` and `lcs merge` share it.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include "tools/app/option.h"
 #include "tools/app/suite_end.h"
 #include "tools/lcs/exit_codes.h"
 
@@ -15,8 +14,8 @@ struct SuiteEndOptions {
   bool quiet = false;
 };
 
-/// Adds `--out`, `--baseline`, `--fail-on-regression`, `--worst-first` and `--quiet`.
-void add_suite_end_options(CLI::App& command, app::SuitePlace& place, SuiteEndOptions& options);
+/// Adds `--fail-on-regression`, `--worst-first` and `--quiet`.
+void add_suite_end(app::Options& all, SuiteEndOptions& options);
 
 /// Prints the tables and messages of a suite.
 ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,

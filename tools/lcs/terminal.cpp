@@ -13,6 +13,7 @@
 #include <iostream>
 #include <mutex>
 
+#include "scenarios/shipped.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/input/message.h"
@@ -79,6 +80,12 @@ void write_err(const std::string& text) {
 
 void tell(std::string_view message) {
   write_err(input::one_line(message) + '\n');
+}
+
+std::filesystem::path scenario_file(const std::string& named) {
+  const auto shipped = scenario::shipped_scenario(named);
+  if (shipped) tell(named + " is " + shipped->string());
+  return shipped.value_or(named);
 }
 
 void warn(const std::vector<std::string>& lines) {

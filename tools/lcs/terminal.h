@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,6 +29,10 @@ void write_err(const std::string& text);
 void tell(std::string_view message);
 /// Prints each warning on a line of standard error.
 void warn(const std::vector<std::string>& lines);
+
+/// The scenario file that an argument names: its path, or of the project's scenarios the name. The
+/// latter is told. \throws std::runtime_error as `scenario::shipped_scenario`.
+std::filesystem::path scenario_file(const std::string& named);
 
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args) {

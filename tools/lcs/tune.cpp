@@ -1,19 +1,14 @@
 /// \file
 /// `lcs tune`: learns the filter's parameters from recorded runs of the split `train`.
-#include <memory>
 
 #include "tools/app/tune.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
 
-struct TuneOptions {
-  app::TuneRequest request;
-  bool quiet = false;
-};
+using TuneOptions = Quietable<app::TuneRequest>;
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --worlds train --count 200 --out out/train
@@ -58,36 +53,8 @@ ExitCode tune(const TuneOptions& options) {
 
 }  // namespace
 
-Command add_tune_command(CLI::App& app) {
-  const auto owned = std::make_shared<TuneOptions>();
-  TuneOptions& options = *owned;
-  CLI::App& command = *app.add_subcommand("tune", "Learn the filter's numbers from recorded runs");
-  command
-      .add_option("--suite,SUITE", options.request.suites,
-                  "Folders of suites of train: worlds, and recordings in which nothing moves")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--validate", options.request.validate,
-                  "Folders of other suites, on which before and after are stated")
-      ->delimiter(',')
-      ->type_name("SUITE,...");
-  command
-      .add_option("--keys", options.request.keys,
-                  "Only these parameters; all learnt ones if not given")
-      ->delimiter(',')
-      ->type_name("KEY,...");
-  add_set_option(command, options.request.sets,
-                 "Set a parameter of the filter before, as hypotheses.prior=0.05");
-  add_integer_option(command, "--evaluations", options.request.evaluations,
-                     "Sets of numbers to try; 300 if not given", 1, 1000000)
-      ->type_name("N");
-  add_seed_option(command, options.request.seed,
-                  "1 starts from the present numbers, any other from a random point near them");
-  add_out_option(command, options.request.out, "out/tune");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return {command, [owned] { return tune(*owned); }};
+Command tune_command() {
+  return command_of("tune", "Learn the filter's numbers from recorded runs", kHelp, &tune);
 }
 
 }  // namespace lcs::tools

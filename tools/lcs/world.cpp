@@ -3,21 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <memory>
-
 #include "tools/app/world.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 namespace {
 
-struct WorldOptions {
-  app::WorldRequest request;
-  bool quiet = false;
-};
+using WorldOptions = Quietable<app::WorldRequest>;
 
 constexpr const char* kHelp = R"(Examples:
   lcs world room --seed 7 --out my/room          my/room/room_7.yaml and its scene
@@ -54,27 +48,9 @@ ExitCode world(const WorldOptions& options) {
 
 }  // namespace
 
-Command add_world_command(CLI::App& app) {
-  const auto owned = std::make_shared<WorldOptions>();
-  WorldOptions& options = *owned;
-  CLI::App& command =
-      *app.add_subcommand("world", "Draw a scenario and its scene from a seed, and write them");
-  command
-      .add_option("FAMILY", options.request.family,
-                  fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
-      ->type_name("")
-      ->required();
-  add_seed_option(command, options.request.seed, "Seed of the world; 1 if not given");
-  add_out_option(command, options.request.out, "out/worlds/FAMILY_SEED");
-  command
-      .add_option("--pictures", options.request.pictures,
-                  "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from")
-      ->type_name("DIR");
-  command.add_flag("--sheet", options.request.sheet,
-                   "Write sheet.png too: first, middle and last picture, and the plan from above");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return {command, [owned] { return world(*owned); }};
+Command world_command() {
+  return command_of("world", "Draw a scenario and its scene from a seed, and write them", kHelp,
+                    &world);
 }
 
 }  // namespace lcs::tools

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "scenarios/shipped.h"
-#include "tools/app/command_line.h"
 #include "tools/app/compare.h"
 #include "tools/app/generate.h"
 #include "tools/app/how_made.h"
@@ -24,8 +23,8 @@
 #include "tools/app/world.h"
 #include "tools/input/inputs_read.h"
 #include "tools/python/guard.h"
+#include "tools/python/keywords.h"
 #include "tools/python/scenario.h"
-#include "tools/python/typed.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
@@ -118,19 +117,6 @@ auto carry_out(const Work& work) {
   const py::gil_scoped_release others_may_run;
   const OneThread one_thread;
   return work();
-}
-
-std::string path_of(const py::handle& path) {
-  return py::cast<std::string>(py::module_::import("os").attr("fspath")(path));
-}
-
-/// The texts of one path, or of several; none for None.
-Texts paths_of(const py::object& paths) {
-  if (paths.is_none()) return {};
-  if (py::isinstance<py::str>(paths) || py::hasattr(paths, "__fspath__")) return {path_of(paths)};
-  Texts all;
-  for (const py::handle path : paths) all.push_back(path_of(path));
-  return all;
 }
 
 py::dict dict_of(const bench::Metrics& metrics) {
@@ -243,128 +229,84 @@ py::dict dict_of(const std::vector<tune::Setting>& settings) {
   return dict;
 }
 
-app::DetectorChoice detector_of(const std::string& name, const std::string& command, double timeout,
-                                const std::string& detections) {
-  return {name, command, timeout, detections};
+/// Defines a function of a request. \param usual has the defaults.
+template <class Request, class Do>
+void define(py::module_& module, const Call& call, Request usual, const Do& work,
+            const std::string& about) {
+  py::options texts;
+  texts.disable_function_signatures();
+  const std::string text = signature_of(call, options_of(usual)) + "\n\n" + about;
+  module.def(
+      call.name.c_str(),
+      [call, usual, work](const py::args& values, const py::kwargs& named) {
+        Request request = usual;
+        PythonCaller caller(read_arguments(call, options_of(request), values, named));
+        return work(std::as_const(request), caller);
+      },
+      text.c_str());
 }
 
-const double kTimeout = app::DetectorChoice{}.timeout_s;
-
 void bind_suites(py::module_& module) {
-  module.def(
-      "suite",
-      [](const OptionalPaths& paths, const std::string& worlds, int count,
-         const std::string& family, const std::optional<std::string>& group,
-         const std::string& filter, std::optional<int> seeds, int jobs, const std::string& detector,
-         const std::string& command, double timeout, const Texts& beside, const Settings& set,
-         const std::string& recorded, const std::string& detections, const std::string& keep,
-         const std::string& shard, const std::string& times, const fs::path& out,
-         const std::string& baseline, bool anew, const ProgressFunction& progress) {
-        app::SuiteRequest request;
-        request.paths = paths_of(paths);
-        if (!worlds.empty() && !request.paths.empty()) {
-          throw py::value_error("there are paths and worlds; give one of them");
-        }
-        request.worlds = {worlds, count, family};
-        request.group = group;
-        request.filter = filter;
-        request.seeds = seeds;
-        request.jobs = jobs;
-        request.detector = detector_of(detector, command, timeout, detections);
-        request.beside = beside;
-        request.sets = assignments_of(set);
-        request.recorded = recorded;
-        request.keep = bench::keep_of(keep);
-        request.shard = shard;
-        request.times = times;
-        request.place = {out.string(), baseline};
-        request.anew = anew;
-        PythonCaller caller(progress);
+  define(
+      module, {.name = "suite", .takes_progress = true}, app::SuiteRequest{},
+      [](const app::SuiteRequest& request, PythonCaller& caller) {
         const app::SuiteMade made = carry_out([&] { return app::suite(request, caller, caller); });
         return dict_of(made, caller);
       },
-      "paths"_a = py::none(), py::kw_only(), "worlds"_a = "", "count"_a = 60, "family"_a = "",
-      "group"_a = py::none(), "filter"_a = "", "seeds"_a = py::none(), "jobs"_a = 0,
-      "detector"_a = "", "detector_command"_a = "", "detector_timeout"_a = kTimeout,
-      "beside"_a = Texts{}, "set"_a = py::none(), "recorded"_a = "", "detections"_a = "",
-      "keep"_a = "all", "shard"_a = "", "times"_a = "", "out"_a = app::SuitePlace::kDefault,
-      "baseline"_a = "", "anew"_a = false, "progress"_a = py::none(),
-      "Runs many scenarios, each in a process of its own, as lcs suite does with the options of "
-      "these names.\n\n"
-      "paths: scenario files and folders; worlds: in their place a split, train, validate or test, "
-      "of\n"
-      "which count worlds, of one family where given; neither: the project's short scenarios.\n"
-      "seeds: runs of each, 3, of worlds 1. jobs: at a time, as many as processors.\n"
-      "detector, beside: names (detectors()). detector_command: starts a program of yours;\n"
-      "detector_timeout: of its answers, s. set: as in Scenario. recorded: an earlier suite, for "
-      "its frames.\n"
-      "keep: figures, events or all. baseline: an earlier suite. progress: called with the numbers "
-      "of\n"
-      "finished and of all runs.\n\n"
-      "Returns a dict: folder; outcome (passed, failed, error); runs: a dict each, with detector,\n"
-      "scenario, seed, family, outcome, error, metrics (by name), criteria, folder, command; "
-      "means: a\n"
-      "dict for each detector, group and metric of the program's tables, with mean, half (of the "
-      "95 %\n"
-      "interval, of worlds; None where unknown) and count; table: the text that the program "
-      "prints; "
-      "verdict;\n"
-      "comparison with the baseline, as of compare; messages.\n"
-      "Finished runs are kept if it raises or is interrupted, and the same call goes on from "
-      "there.");
-  module.def(
-      "merge",
-      [](const Paths& parts, const fs::path& out, const std::string& baseline) {
-        const app::MergeRequest request{paths_of(parts), {out.string(), baseline}};
-        PythonCaller caller;
+      R"(Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
+
+paths: scenario files and folders; worlds: in their place a split, train, validate or test, of
+which count worlds, of one family where given; neither: the project's short scenarios.
+seeds: runs of each, 3, of worlds 1. jobs: at a time, as many as processors.
+detector, beside: names (detectors()). detector_command: starts a program of yours;
+detector_timeout: of its answers, s. set: as in Scenario. recorded: an earlier suite, for its frames.
+keep: figures, events or all. baseline: an earlier suite. progress: called with the numbers of
+finished and of all runs.
+
+Returns a dict: folder; outcome (passed, failed, error); runs: a dict each, with detector,
+scenario, seed, family, outcome, error, metrics (by name), criteria, folder, command; means: a
+dict for each detector, group and metric of the program's tables, with mean, half (of the 95 %
+interval, of worlds; None where unknown) and count; table: the text that the program prints; verdict;
+comparison with the baseline, as of compare; messages.
+Finished runs are kept if it raises or is interrupted, and the same call goes on from there.)");
+  define(
+      module, {.name = "merge"}, app::MergeRequest{},
+      [](const app::MergeRequest& request, PythonCaller& caller) {
         const app::SuiteMade made = carry_out([&] { return app::merge(request, caller); });
         return dict_of(made, caller);
       },
-      "parts"_a, py::kw_only(), "out"_a = app::SuitePlace::kDefault, "baseline"_a = "",
       "Joins the folders of the parts of a suite (shard). Returns as suite.");
-  module.def(
-      "compare",
-      [](const fs::path& before, const fs::path& after, const std::string& metric,
-         const std::string& markdown, const std::string& pictures_at) {
-        const auto [old, now, comparison, verdict] =
-            app::compare({before.string(), after.string(), metric, markdown, pictures_at});
+  define(
+      module, {.name = "compare", .positional = 2}, app::CompareRequest{},
+      [](const app::CompareRequest& request, PythonCaller&) {
+        const auto [old, now, comparison, verdict] = app::compare(request);
         return dict_of(comparison, verdict);
       },
-      "before"_a, "after"_a, py::kw_only(), "metric"_a = "", "markdown"_a = "",
-      "pictures_at"_a = "",
-      "The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).\n\n"
-      "before, after: folders, or their suite.json. metric: a regular expression.\n"
-      "markdown: a folder for a summary in Markdown, whose pictures will be at the address "
-      "pictures_at.\n"
-      "Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, "
-      "with group\n"
-      "or scenario, metric, before, after, change, half (of its 95 % interval; None where "
-      "unknown), pairs,\n"
-      "verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the "
-      "program prints it.\n"
-      "Raises Error for suites that cannot be read, or have nothing in common.");
+      R"(The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
+
+before, after: folders, or their suite.json. metric: a regular expression.
+markdown: a folder for a summary in Markdown, whose pictures will be at the address pictures_at.
+Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, with group
+or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
+verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
+Raises Error for suites that cannot be read, or have nothing in common.)");
 }
 
 void bind_worlds(py::module_& module) {
-  module.def(
-      "world",
-      [](const std::string& family, std::uint64_t seed, const std::string& out,
-         const std::string& pictures, bool sheet) {
-        PythonCaller caller;
-        const app::WorldMade made = carry_out([&] {
-          return app::world({family, seed, out, pictures, sheet}, caller);
-        });
+  define(
+      module, {.name = "world", .positional = 2}, app::WorldRequest{},
+      [](const app::WorldRequest& request, PythonCaller& caller) {
+        const app::WorldMade made = carry_out([&] { return app::world(request, caller); });
         return py::dict("file"_a = made.folder / (worlds::name_of(made.world) + ".yaml"),
                         "objects"_a = made.world.bodies.size(),
                         "movers"_a = made.world.scenario.actors.size(),
                         "drawn_again"_a = made.world.attempt, "features"_a = made.world.features);
       },
-      "family"_a, "seed"_a = 1, py::kw_only(), "out"_a = "", "pictures"_a = "", "sheet"_a = false,
-      "Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).\n\n"
-      "out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for "
-      "surfaces.\n"
-      "Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.\n"
-      "Raises ValueError for an unknown family, naming the known ones.");
+      R"(Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).
+
+out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for surfaces.
+Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.
+Raises ValueError for an unknown family, naming the known ones.)");
   module.def(
       "worlds",
       [](const std::string& split, int count, const std::string& family, int jobs) {
@@ -376,45 +318,21 @@ void bind_worlds(py::module_& module) {
         return files;
       },
       "split"_a, "count"_a = 60, py::kw_only(), "family"_a = "", "jobs"_a = 0,
-      "The scenario files of the first worlds of a split: train, validate or test, by which "
-      "nothing may be\n"
-      "chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.");
+      R"(The scenario files of the first worlds of a split: train, validate or test, by which nothing may be
+chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.)");
 }
 
 void bind_runs(py::module_& module) {
-  module.def(
-      "run",
-      [](const fs::path& scenario, const std::string& out, std::optional<std::uint64_t> seed,
-         const Settings& set, const std::string& frames, const std::string& detector,
-         const std::string& command, double timeout, const std::string& detections,
-         const Texts& beside, const std::string& recorded, const std::string& keep, bool video,
-         bool events, bool report, const ProgressFunction& progress) {
-        app::RunRequest request;
-        request.scenario = scenario.string();
-        request.out = out;
-        request.seed = seed;
-        request.sets = assignments_of(set);
-        request.frames = frames;
-        request.detector = detector_of(detector, command, timeout, detections);
-        request.beside = beside;
-        request.recorded = recorded;
-        request.keep = bench::keep_of(keep);
-        request.no_video = !video;
-        request.events = events;
-        request.report = report;
-        PythonCaller caller(progress);
+  define(
+      module, {.name = "run", .takes_progress = true}, app::RunRequest{.video = false},
+      [](const app::RunRequest& request, PythonCaller& caller) {
         const app::RunMade made = carry_out([&] { return app::run(request, caller); });
         return dict_of(made, caller);
       },
-      "scenario"_a, py::kw_only(), "out"_a = "", "seed"_a = py::none(), "set"_a = py::none(),
-      "frames"_a = "", "detector"_a = "", "detector_command"_a = "",
-      "detector_timeout"_a = kTimeout, "detections"_a = "", "beside"_a = Texts{}, "recorded"_a = "",
-      "keep"_a = "all", "video"_a = false, "events"_a = false, "report"_a = false,
-      "progress"_a = py::none(),
-      "Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.\n\n"
-      "beside: \"DETECTOR=FOLDER\" each. The others are as those of suite.\n"
-      "Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), "
-      "messages.");
+      R"(Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
+
+beside: "DETECTOR=FOLDER" each. The others are as those of suite.
+Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.)");
   module.def(
       "_score_files",
       [](const fs::path& folder, const fs::path& detections) {
@@ -426,65 +344,20 @@ void bind_runs(py::module_& module) {
         return dict_of(scored.metrics);
       },
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
-  module.def(
-      "replay",
-      [](const fs::path& path, const std::string& out, const Settings& recording,
-         const std::string& ego_motion, const std::string& corners,
-         const std::string& fast_threshold, const std::string& preset, const Settings& set,
-         const std::string& detector, const std::string& command, double timeout,
-         const Texts& beside, bool video, bool events, const ProgressFunction& progress) {
-        app::ReplayRequest request;
-        request.path = path.string();
-        for (const std::string& assignment : assignments_of(recording)) {
-          const auto [key, value] = app::key_and_value(assignment);
-          request.recording[key] = value;
-        }
-        request.ego_motion = ego_motion;
-        request.corners = corners;
-        request.fast_threshold = fast_threshold;
-        request.preset = preset;
-        request.sets = assignments_of(set);
-        request.detector = detector_of(detector, command, timeout, "");
-        request.beside = beside;
-        request.out = out;
-        request.no_video = !video;
-        request.events = events;
-        PythonCaller caller(progress);
+  define(
+      module, {.name = "replay", .takes_progress = true}, app::ReplayRequest{.video = false},
+      [](const app::ReplayRequest& request, PythonCaller& caller) {
         const app::RunMade made = carry_out([&] { return app::replay(request, caller); });
         return dict_of(made, caller);
       },
-      "path"_a, py::kw_only(), "out"_a = "", "recording"_a = py::none(), "ego_motion"_a = "",
-      "corners"_a = "", "fast_threshold"_a = "", "preset"_a = "", "set"_a = py::none(),
-      "detector"_a = "", "detector_command"_a = "", "detector_timeout"_a = kTimeout,
-      "beside"_a = Texts{}, "video"_a = false, "events"_a = false, "progress"_a = py::none(),
-      "Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs "
-      "replay.\n\n"
-      "path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {\"focal\": "
-      "600,\n"
-      "\"topics.imu\": \"/imu\"}; lists as text, \"319.5,239.5\". ego_motion: imu or truth. "
-      "corners:\n"
-      "pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. "
-      "Returns as run.");
-  module.def(
-      "generate",
-      [](const OptionalPaths& paths, const std::string& out, const std::string& worlds, int count,
-         const std::string& family, bool suite, const Texts& formats, bool add, int frames,
-         std::optional<std::uint64_t> seed, int seeds, const Settings& set, int jobs,
-         const std::string& shard, const ProgressFunction& progress) {
-        app::GenerateRequest request;
-        request.add = add;
-        request.paths = paths_of(paths);
-        request.worlds = {worlds, count, family};
-        request.suite = suite;
-        request.out = out;
-        request.formats = formats;
-        request.frames = frames;
-        request.seed = seed;
-        request.seeds = seeds;
-        request.sets = assignments_of(set);
-        request.jobs = jobs;
-        request.shard = shard;
-        PythonCaller caller(progress);
+      R"(Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
+
+path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {"focal": 600,
+"topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
+pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.)");
+  define(
+      module, {.name = "generate", .takes_progress = true}, app::GenerateRequest{},
+      [](const app::GenerateRequest& request, PythonCaller& caller) {
         if (request.is_of_many()) {
           const app::SequencesMade made =
               carry_out([&] { return app::generate_suite(request, caller); });
@@ -496,35 +369,19 @@ void bind_runs(py::module_& module) {
                         "frames"_a = std::pair(made.range.first, made.range.last),
                         "notes"_a = made.notes, "messages"_a = caller.messages());
       },
-      "paths"_a = py::none(), py::kw_only(), "out"_a = "", "worlds"_a = "", "count"_a = 60,
-      "family"_a = "", "suite"_a = false, "formats"_a = Texts{}, "add"_a = false, "frames"_a = 0,
-      "seed"_a = py::none(), "seeds"_a = 1, "set"_a = py::none(), "jobs"_a = 1, "shard"_a = "",
-      "progress"_a = py::none(),
-      "Writes a scenario as a sequence that other tools read (tools/sequence/README.md).\n\n"
-      "paths: the scenario's file; with suite=True files and folders. worlds: in its place a split "
-      "of\n"
-      "worlds, as in suite. formats: names; if not given, all but kitti and mcap. add: adds them "
-      "to\n"
-      "the finished sequence in out. frames: only the first so many.\n"
-      "Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; "
-      "messages. The\n"
-      "same call goes on after it was interrupted.");
+      R"(Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
+
+paths: the scenario's file; with suite=True files and folders. worlds: in its place a split of
+worlds, as in suite. formats: names; if not given, all but kitti and mcap. add: adds them to
+the finished sequence in out. frames: only the first so many.
+Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
+same call goes on after it was interrupted.)");
 }
 
 void bind_studies(py::module_& module) {
-  module.def(
-      "tune",
-      [](const Paths& suites, const OptionalPaths& validate, const Texts& keys, const Settings& set,
-         int evaluations, std::uint64_t seed, const fs::path& out,
-         const ProgressFunction& progress) {
-        const app::TuneRequest request{.suites = paths_of(suites),
-                                       .validate = paths_of(validate),
-                                       .keys = keys,
-                                       .sets = assignments_of(set),
-                                       .evaluations = evaluations,
-                                       .seed = seed,
-                                       .out = out.string()};
-        PythonCaller caller(progress);
+  define(
+      module, {.name = "tune", .takes_progress = true}, app::TuneRequest{},
+      [](const app::TuneRequest& request, PythonCaller& caller) {
         const app::TuneMade made = carry_out([&] { return app::tune(request, caller); });
         py::list stated;
         for (const tune::Stated& one : made.stated) {
@@ -536,26 +393,15 @@ void bind_studies(py::module_& module) {
                         "evaluations"_a = made.found.evaluations, "record"_a = made.record,
                         "messages"_a = caller.messages());
       },
-      "suites"_a, py::kw_only(), "validate"_a = py::none(), "keys"_a = Texts{},
-      "set"_a = py::none(), "evaluations"_a = 300, "seed"_a = 1, "out"_a = app::TuneRequest{}.out,
-      "progress"_a = py::none(),
-      "Learns the filter's parameters from suites of the split train, as lcs tune.\n\n"
-      "suites, validate: folders. keys: of the parameters; all learnt ones if not given.\n"
-      "Returns a dict: folder; before, after: values by key; stated: for each kind of suites a "
-      "dict of suite\n"
-      "and, before and after, objective, f1, false objects and corners a frame; evaluations; "
-      "record, a text.\n"
-      "The same call goes on after it was interrupted.");
-  module.def(
-      "kinematics",
-      [](const std::string& config, const Settings& set, double tolerance, bool quick,
-         const fs::path& out, const ProgressFunction& progress) {
-        const app::KinematicsRequest request{.config = config,
-                                             .sets = assignments_of(set),
-                                             .out = out.string(),
-                                             .tolerance_px = tolerance,
-                                             .quick = quick};
-        PythonCaller caller(progress);
+      R"(Learns the filter's parameters from suites of the split train, as lcs tune.
+
+suites, validate: folders. keys: of the parameters; all learnt ones if not given.
+Returns a dict: folder; before, after: values by key; stated: for each kind of suites a dict of suite
+and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
+The same call goes on after it was interrupted.)");
+  define(
+      module, {.name = "kinematics", .takes_progress = true}, app::KinematicsRequest{},
+      [](const app::KinematicsRequest& request, PythonCaller& caller) {
         const app::KinematicsMade made =
             carry_out([&] { return app::kinematics(request, caller); });
         py::list answer;
@@ -571,14 +417,11 @@ void bind_studies(py::module_& module) {
         return py::dict("folder"_a = made.folder, "answer"_a = answer, "text"_a = made.text,
                         "messages"_a = caller.messages());
       },
-      "config"_a = "", py::kw_only(), "set"_a = py::none(), "tolerance"_a = 1.0, "quick"_a = false,
-      "out"_a = app::KinematicsRequest{}.out, "progress"_a = py::none(),
-      "Measures when the motion model holds for a camera and rover "
-      "(tools/kinematics/README.md).\n\n"
-      "config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.\n"
-      "Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, "
-      "expected,\n"
-      "NaN without theory) and verdict; text: as the program prints it.");
+      R"(Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
+
+config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.
+Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
+NaN without theory) and verdict; text: as the program prints it.)");
 }
 
 }  // namespace

@@ -30,11 +30,6 @@ using ArrayLike = Typed<"numpy.typing.ArrayLike">;
 using OptionalArray = Typed<"numpy.typing.ArrayLike | None">;
 using Settings = Typed<"collections.abc.Mapping[str, object] | None">;
 using OptionalSeed = Typed<"int | None">;
-/// Called with the numbers of finished and of all units.
-using ProgressFunction = Typed<"collections.abc.Callable[[int, int], object] | None">;
-using Paths = Typed<"str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]]">;
-using OptionalPaths =
-    Typed<"str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None">;
 using OptionalVector = Typed<"numpy.typing.NDArray[numpy.float64] | None">;
 using Frames = Typed<"collections.abc.Iterator[Frame]">;
 using Answer = Typed<"Result | Detections | numpy.typing.ArrayLike">;

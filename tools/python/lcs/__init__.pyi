@@ -567,7 +567,7 @@ def detectors() -> dict[str, typing.Any]:
     """
     The names of the bench's detectors, with a line about each.
     """
-def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], add: bool = False, frames: int = 0, seed: int | None = None, seeds: int = 1, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, suite: bool = False, worlds: str = '', count: int = 60, family: str = '', out: str = '', formats: list[str] = [], add: bool = False, frames: int = 0, seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', group: str | None = None, filter: str = '', seeds: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
 
@@ -577,7 +577,7 @@ def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.P
     Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
     same call goes on after it was interrupted.
     """
-def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any] | None = None, tolerance: float = 1.0, quick: bool = False, out: str | os.PathLike[str] = 'out/kinematics', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any] | None = None, out: str | os.PathLike[str] = 'out/kinematics', tolerance: float = 1.0, quick: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
 
@@ -589,7 +589,7 @@ def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.Path
     """
     Joins the folders of the parts of a suite (shard). Returns as suite.
     """
-def replay(path: str | os.PathLike[str], *, out: str = '', recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', corners: str = '', fast_threshold: str = '', preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], video: bool = False, events: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def replay(path: str | os.PathLike[str], *, recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', corners: str = '', fast_threshold: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, beside: list[str] = [], out: str = '', video: bool = False, events: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
@@ -597,7 +597,7 @@ def replay(path: str | os.PathLike[str], *, out: str = '', recording: collection
     "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
     pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.
     """
-def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, frames: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, detections: str = '', beside: list[str] = [], recorded: str = '', keep: str = 'all', video: bool = False, events: bool = False, report: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, frames: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], recorded: str = '', detections: str = '', video: bool = False, events: bool = False, keep: str = 'all', gzip: bool = False, report: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
@@ -621,7 +621,7 @@ def simulate(scenario: Scenario) -> Simulation:
         fail.
 
     """
-def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, worlds: str = '', count: int = 60, family: str = '', group: str | None = None, filter: str = '', seeds: int | None = None, jobs: int = 0, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, recorded: str = '', detections: str = '', keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 

@@ -1,0 +1,50 @@
+/// \file
+/// The command line of the program: parses the words, and carries out the command that they name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/app/option.h"
+#include "tools/lcs/exit_codes.h"
+
+namespace lcs::tools {
+
+struct Command {
+  std::string name;
+  std::string about;
+  std::string help;  ///< below the options
+  app::Options options;
+  /// To be called if the options were parsed. \throws as the function of tools/app.
+  std::function<ExitCode()> carry_out;
+};
+
+/// \param help below the options. \param carry_out gets options of which `options_of` is the list.
+template <class Chosen>
+Command command_of(const std::string& name, const std::string& about, const std::string& help,
+                   ExitCode (*carry_out)(const Chosen&)) {
+  const auto chosen = std::make_shared<Chosen>();
+  return {name, about, help, options_of(*chosen), [=] { return carry_out(*chosen); }};
+}
+
+/// A request, and whether its command prints only errors and warnings.
+template <class Request>
+struct Quietable {
+  Request request;
+  bool quiet = false;
+};
+template <class Request>
+app::Options options_of(Quietable<Request>& chosen) {
+  app::Options all = options_of(chosen.request);
+  all.add_quiet(chosen.quiet);
+  return all;
+}
+
+/// \param help of the program, below the commands. \return the exit code.
+/// \throws what the command throws.
+int run_command_line(const std::vector<Command>& commands, const std::string& help, int argc,
+                     char** argv);
+
+}  // namespace lcs::tools
