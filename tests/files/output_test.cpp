@@ -23,8 +23,9 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/input/sha256.h"
+#include "tools/files/written.h"
 #include "tools/input/inputs_read.h"
+#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -259,6 +260,7 @@ TEST_F(Abandoned, AnEarlierResultOnItsWayOutIsPutBack) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
   fs::create_directory(left / "out");  // as if two folders could not be exchanged atomically
   write(left / "out" / "metrics.json", "by lcs: old");
+  write_record_of_folder(left / "out");
   { const Output folder(top_ / "run", kFiles); }
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
   EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
@@ -507,7 +509,8 @@ class OutputOfAFile : public OutputTest {
 TEST_F(OutputOfAFile, AppearsWithItsRecordAndIsReplacedWhileNobodyChangesIt) {
   make_file(top_ / "deep" / "figures.json", "old");
   EXPECT_EQ(entries(top_ / "deep"), std::set<std::string>{"figures.json"});
-  EXPECT_EQ(read(top_ / "deep" / ".figures.json.lcs-written"), sha256("old") + "  figures.json\n");
+  EXPECT_EQ(read(top_ / "deep" / ".figures.json.lcs-written"),
+            input::sha256("old") + "  figures.json\n");
   make_file(top_ / "deep" / "figures.json", "new");
   EXPECT_EQ(read(top_ / "deep" / "figures.json"), "new");
   write(top_ / "deep" / "figures.json", "new, and edited");
@@ -588,6 +591,24 @@ TEST_F(OutputOfAFile, ThatAKilledProcessLeftIsTakenAway) {
   EXPECT_EQ(entries(top_).size(), 1u);
   make_file(top_ / "page.html", "new");
   EXPECT_EQ(entries(top_), std::set<std::string>{"page.html"});
+}
+
+TEST_F(OutputOfAFile, WhoseRecordIsNotInItsPlaceYetIsFinishedByTheNext) {
+  make_file(top_ / "figures.json", "old");
+  const fs::path record = top_ / ".figures.json.lcs-written";
+  const std::string old = read(record);
+  make_file(top_ / "figures.json", "new");
+  // As after `kill -9` between the two renames.
+  const fs::path left = top_ / "figures.json.partial-4711";
+  fs::create_directories(left / "in");
+  fs::create_directories(left / "out");
+  write(left / ".lcs-partial",
+        "lcs writes its results here, and takes this folder away: figures.json.partial-4711\n");
+  fs::rename(record, left / "in" / record.filename());
+  write(record, old);
+  make_file(top_ / "figures.json", "newer");
+  EXPECT_EQ(read(top_ / "figures.json"), "newer");
+  EXPECT_FALSE(fs::exists(left));
 }
 
 TEST_F(Abandoned, AFolderThatWasJustBegunIsTakenAway) {

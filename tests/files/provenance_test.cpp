@@ -6,6 +6,7 @@
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output.h"
+#include "tools/input/error.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/sha256.h"
 

@@ -10,6 +10,9 @@
 namespace lcs::input {
 namespace {
 
+using bench::TemporaryFolder;
+using bench::write;
+
 namespace fs = std::filesystem;
 
 class InputsRead : public testing::Test {

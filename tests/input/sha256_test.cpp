@@ -8,6 +8,9 @@
 namespace lcs::input {
 namespace {
 
+using bench::TemporaryFolder;
+using bench::write;
+
 TEST(Sha256, IsThatOfTheStandard) {
   // FIPS 180-4's own examples.
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

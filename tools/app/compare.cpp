@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/app/suite_end.h"
 #include "tools/files/output.h"
 #include "tools/suite/merge_request.h"
 #include "tools/suite/pattern.h"
@@ -13,10 +14,12 @@ namespace lcs::app {
 
 Compared compare(const CompareRequest& request) {
   const suite::Pattern wanted(request.metric, "--metric", "rebel.*f1");
-  Compared compared{.before = suite::read_suite(request.before),
-                    .after = suite::read_suite(request.after),
-                    .comparison = {},
-                    .verdict = {}};
+  Compared compared{
+      .before = suite::read_suite(request.before),
+      .after = suite::read_suite(request.after),
+      .comparison = {},
+      .verdict = {},
+      .warnings = other_inputs(suite::folder_of(request.before), suite::folder_of(request.after))};
   compared.comparison =
       suite::compare(compared.before, compared.after,
                      [&](std::string_view metric) { return wanted.is_in(metric); });

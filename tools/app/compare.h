@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/app/option.h"
 #include "tools/suite/comparison.h"
@@ -26,6 +27,7 @@ struct Compared {
   suite::SuiteResult before, after;
   suite::Comparison comparison;
   suite::Verdict verdict;
+  std::vector<std::string> warnings = {};
 };
 
 /// \throws std::runtime_error if a suite cannot be read or the two have no scenario in common.

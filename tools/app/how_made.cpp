@@ -63,9 +63,7 @@ void write_how_made(const std::filesystem::path& folder, const std::string& comm
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start.wall).count();
   json["cpu_s"] = static_cast<double>(std::clock() - start.cpu) / CLOCKS_PER_SEC;
   json.update(provenance.json());
-  bench::write_file(
-      folder / bench::kHowMadeFile,
-      json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+  bench::write_file(folder / bench::kHowMadeFile, bench::json_text(json, 1) + '\n');
 }
 
 }  // namespace lcs::app

@@ -224,44 +224,39 @@ void write_page(const RunRequest& request, const scenario::Scenario& scenario, c
   report::write_run_report(folder / report::kReportFile, {suite, folder});
 }
 
-}  // namespace
-
-RunMade run(const RunRequest& request, Caller& caller) {
-  std::vector<std::string> sets = request.sets;
-  if (!request.frames.empty()) sets.push_back("frames=" + request.frames);
-  return run_scenario(
-      request, scenario::load(request.scenario, {.sets = sets, .seed = request.seed}), caller);
+/// \param playback of the scenario's recording; null: it is simulated.
+Frames frames_of(const RunRequest& request, const scenario::Scenario& scenario,
+                 replay::Playback* playback) {
+  if (!request.recorded.empty()) {
+    return recorded(request, scenario,
+                    playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
+  }
+  return playback ? played(scenario, *playback, request.threads)
+                  : simulated(scenario, request.threads);
 }
 
-RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Caller& caller) {
-  // Validate the whole request before any output is begun.
-  std::optional<replay::Playback> playback;
-  if (scenario.recording) scenario = playback.emplace(scenario).scenario();
-  std::vector<Watching> all = watching(request, scenario);
-  Watching& own = all.front();
-  bench::require_known_metrics(scenario.criteria);
-  const Frames frames = [&] {
-    if (!request.recorded.empty()) {
-      return recorded(request, scenario,
-                      playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
-    }
-    return playback ? played(scenario, *playback, request.threads)
-                    : simulated(scenario, request.threads);
-  }();
+void make_detectors(const RunRequest& request, const scenario::Scenario& scenario,
+                    const Frames& frames, std::vector<Watching>& all, Caller& caller) {
   for (Watching& one : all) {
     if (scenario.frames > 0) {
-      note_longer(one.target, &one != &own || !request.out.empty(), "frames",
+      note_longer(one.target, &one != &all.front() || !request.out.empty(), "frames",
                   static_cast<std::size_t>(scenario.frames), caller);
     }
     one.detector = comparators::make(one.spec, {.camera = frames.camera,
                                                 .scenario = one.scenario,
                                                 .recorded = request.recorded,
                                                 .frames = frames.count,
-                                                .on_wait = [&] { caller.check(); }});
+                                                .on_wait = [&caller] { caller.check(); }});
     one.info = frames.info;
     one.info.detector = {one.spec.name, one.spec.detector.layered, one.detector->gives_circles()};
     one.info.camera = frames.camera;
   }
+}
+
+/// Begins the outputs. The run's own detector has the pictures and the page.
+void open_results(const RunRequest& request, const scenario::Scenario& scenario,
+                  const Frames& frames, std::vector<Watching>& all) {
+  Watching& own = all.front();
   // The frames of a recording keep their truth: its file is copied if its form stays.
   const bool is_truth_there =
       !request.recorded.empty() &&
@@ -286,39 +281,77 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
         one.target, one.info, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
     if (&one == &own && is_truth_there) one.result->copy_truth(request.recorded);
   }
+}
+
+void warn_before(const scenario::Scenario& scenario, const std::vector<Watching>& all,
+                 Caller& caller) {
   caller.warn(scenario::shadowed_files(scenario));
-  caller.warn(own.settings_without_effect);
+  caller.warn(all.front().settings_without_effect);
   std::set<std::string> names;
   for (const Watching& one : all) names.insert(one.spec.name);
   caller.warn(bench::not_asked(scenario.criteria, names));
   caller.warn(bench::not_judged(scenario.criteria));
-  bench::RunEnd end;
-  {
-    const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
-    std::vector<bench::Watcher> watchers;
-    for (Watching& one : all) {
-      watchers.push_back(
-          {*one.detector, [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-             caller.check();
-             one.result->add(frame, image);
-             progress->show(frame.index + 1);
-           }});
-    }
-    end = frames.run(watchers);
+}
+
+bench::RunEnd watch(const scenario::Scenario& scenario, const Frames& frames,
+                    std::vector<Watching>& all, Caller& caller) {
+  const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
+  std::vector<bench::Watcher> watchers;
+  for (Watching& one : all) {
+    watchers.push_back(
+        {*one.detector, [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+           caller.check();
+           one.result->add(frame, image);
+           progress->show(frame.index + 1);
+         }});
   }
-  caller.warn(frames.missing());
-  caller.check();
+  return frames.run(watchers);
+}
+
+/// Writes the files that depend on all frames, and puts all results in their places.
+/// \return the figures of each detector.
+std::vector<bench::Metrics> finish(const RunRequest& request, const scenario::Scenario& scenario,
+                                   const Frames& frames, const bench::RunEnd& end,
+                                   std::vector<Watching>& all, Caller& caller) {
   std::vector<bench::Metrics> metrics;
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
+    const bool is_own = &one == &all.front();
     metrics.push_back(one.result->finish(end.warnings));
-    if (&one != &own) one.result->share_truth(*own.result);
-    write_how_made(request, scenario, frames, one, &one == &own);
+    if (!is_own) one.result->share_truth(*all.front().result);
+    write_how_made(request, scenario, frames, one, is_own);
     outputs.push_back(&one.result->output());
   }
   caller.check();
   bench::commit_all(outputs);
+  return metrics;
+}
 
+}  // namespace
+
+RunMade run(const RunRequest& request, Caller& caller) {
+  std::vector<std::string> sets = request.sets;
+  if (!request.frames.empty()) sets.push_back("frames=" + request.frames);
+  return run_scenario(
+      request, scenario::load(request.scenario, {.sets = sets, .seed = request.seed}), caller);
+}
+
+RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Caller& caller) {
+  // Validate the whole request before any output is begun.
+  std::optional<replay::Playback> playback;
+  if (scenario.recording) scenario = playback.emplace(scenario).scenario();
+  std::vector<Watching> all = watching(request, scenario);
+  bench::require_known_metrics(scenario.criteria);
+  const Frames frames = frames_of(request, scenario, playback ? &*playback : nullptr);
+  make_detectors(request, scenario, frames, all, caller);
+  open_results(request, scenario, frames, all);
+  warn_before(scenario, all, caller);
+  const bench::RunEnd end = watch(scenario, frames, all, caller);
+  caller.warn(frames.missing());
+  caller.check();
+  std::vector<bench::Metrics> metrics = finish(request, scenario, frames, end, all, caller);
+
+  const Watching& own = all.front();
   caller.warn(bench::lines_of(own.result->warned()));
   if (playback && request.recorded.empty()) {
     for (const std::string& line : playback->told()) caller.tell(line);

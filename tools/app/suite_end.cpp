@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/files/output_file.h"
+#include "tools/files/provenance.h"
 #include "tools/report/report_page.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/beside_table.h"

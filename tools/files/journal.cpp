@@ -95,7 +95,7 @@ void JournalReader::read(const Take& take) {
 Journal::Journal(fs::path file, std::string_view sign, const Provenance& provenance,
                  std::string_view columns, std::string remedy, const JournalReader::Take& take)
     : path_(std::move(file)),
-      head_(fmt::format("{}\n{}{}\n{}\n", sign, kComment, provenance.json().dump(), columns)) {
+      head_(fmt::format("{}\n{}{}\n{}\n", sign, kComment, json_text(provenance.json()), columns)) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path_, error);
   JournalReader reader(path_, sign, std::move(remedy));

@@ -496,23 +496,29 @@ void Output::take_unfinished() {
   std::error_code error;
   fs::create_directory(own_, error);
   if (error) fail_to("create", own_, error);
+  // Until it is known as ours, no exception may leave `lock_`: the folder would be tidied up.
+  const auto refuse = [&](const std::string& what) {
+    lock_.reset();
+    throw OutputError(what);
+  };
   lock_.emplace(own_, unfinished_ == Unfinished::shared);
+  const int problem = lock_->problem();
   if (lock_->is_of_another()) {
-    if (!wait_) {
-      throw OutputError(fmt::format(
-          "{}: another process writes it; wait for it, or choose another place", target_.string()));
-    }
-    wait_();
+    lock_.reset();
+    if (wait_) return wait_();
+    refuse(fmt::format("{}: another process writes it; wait for it, or choose another place",
+                       target_.string()));
   }
-  if (lock_->problem() == ENOENT || (!lock_->is_held() && lock_->is_possible())) {
+  const bool is_other = problem == ELOOP || problem == ENOTDIR;  // a link
+  if (problem == ENOENT || (problem == 0 && !lock_->is_held() && lock_->is_possible())) {
     return lock_.reset();
   }
-  if (lock_->problem() != 0 && lock_->problem() != ELOOP && lock_->problem() != ENOTDIR) {
-    fail_to("use", own_, lock_->problem());
+  if (problem != 0 && !is_other) {
+    lock_.reset();
+    fail_to("use", own_, problem);
   }
-  if (lock_->problem() != 0 || (!has_marker(own_) && !is_just_begun(own_))) {
-    throw OutputError(
-        fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
+  if (is_other || (!has_marker(own_) && !is_just_begun(own_))) {
+    refuse(fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
   }
   if (unfinished_ == Unfinished::shared) return;
   // A process was killed while it moved its result: before the end, or after.
@@ -526,7 +532,7 @@ void Output::take_unfinished() {
 void Output::make_staging() {
   constexpr int kMostAttempts = 1000;
   for (int attempt = 0; !lock_; ++attempt) {
-    if (attempt == kMostAttempts) {
+    if (attempt == kMostAttempts && !wait_) {
       throw OutputError(fmt::format("{} cannot be made or locked; {}", own_.string(), kAnother));
     }
     unfinished_ == Unfinished::removed ? take_free_name(attempt) : take_unfinished();

@@ -27,9 +27,7 @@ std::string text_of(const Provenance::Json& facts, const std::string& name) {
   constexpr std::size_t kMostShown = 200;  // bytes
   if (!facts.contains(name)) return "not stated";
   const Provenance::Json& value = facts.at(name);
-  const std::string text =
-      value.is_string() ? value.get<std::string>()
-                        : value.dump(-1, ' ', false, Provenance::Json::error_handler_t::replace);
+  const std::string text = value.is_string() ? value.get<std::string>() : json_text(value);
   return fmt::format(
       "'{}'",
       input::one_line(text.size() <= kMostShown ? text : text.substr(0, kMostShown) + " ..."));

@@ -42,7 +42,8 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
 }
 
 ExitCode compare(const CompareOptions& options) {
-  const auto [before, after, comparison, verdict] = app::compare(options.request);
+  const auto [before, after, comparison, verdict, warnings] = app::compare(options.request);
+  warn(warnings);
   print_suite("before", options.request.before, before);
   print_suite("after ", options.request.after, after);
   print_out("{}", input::printable(suite::text_of(comparison, options.all)));

@@ -8,11 +8,14 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
+#include <string_view>
 
+#include "tools/files/output_file.h"
 #include "tools/input/message.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
+#include "tools/suite/child_process.h"
 
 namespace {
 
@@ -66,6 +69,10 @@ int main(int argc, char** argv) {
     return fail(kNoMemory);
   } catch (const cv::Exception& error) {
     return fail(error.code == cv::Error::StsNoMem ? kNoMemory : error.what());
+  } catch (const lcs::bench::OutputError& error) {
+    fail(error.what());
+    const bool is_child = argc > 0 && std::string_view(argv[0]) == lcs::suite::kChildName;
+    return is_child ? lcs::suite::kCannotWrite : kError;
   } catch (const std::exception& error) {
     return fail(lcs::input::message_of(error));
   }

@@ -31,7 +31,7 @@ std::string manifest_text(const bench::Provenance& plan, const Agreements& check
   for (const FileRecord& file : files) {
     manifest["files"][file.path] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
   }
-  return manifest.dump(1) + "\n";
+  return bench::json_text(manifest, 1) + "\n";
 }
 
 bench::Provenance read_provenance(const fs::path& file) {

@@ -87,20 +87,18 @@ std::vector<std::string> SequenceFolder::formats() const {
 }
 
 /// The first difference from the asked sequence; "" if there is none.
-std::string SequenceFolder::other_than(const bench::Provenance& there) const {
-  const std::string what = bench::difference(there, {.facts = facts_, .read = {}});
+/// \param but names of facts that may differ.
+std::string SequenceFolder::other_than(const bench::Provenance& there,
+                                       std::span<const std::string_view> but) const {
+  const std::string what = bench::difference(there, {.facts = facts_, .read = {}}, but);
   return what.empty() ? bench::changed_since(there, base_) : what;
 }
 
 bool SequenceFolder::is_complete(const bench::Provenance::Json& facts) {
   facts_ = facts;
   if (finished_) {
-    const std::string what = other_than(*finished_);
-    const bool is_other =
-        !adds_ ||
-        !bench::difference(*finished_, {.facts = facts, .read = {}}, kOfFormats).empty() ||
-        !bench::changed_since(*finished_, base_).empty();
-    if (!what.empty() && is_other) {
+    const auto may_differ = adds_ ? std::span(kOfFormats) : std::span<const std::string_view>();
+    if (const std::string what = other_than(*finished_, may_differ); !what.empty()) {
       throw bench::OutputError(fmt::format(
           "{} holds another sequence: {}; choose another folder with --out, or remove it",
           target().string(), what));
@@ -109,7 +107,7 @@ bool SequenceFolder::is_complete(const bench::Provenance::Json& facts) {
       throw bench::OutputError(
           fmt::format("{}: {}; remove the folder to make it anew", target().string(), damage));
     }
-    if (what.empty()) return true;
+    if (other_than(*finished_).empty()) return true;
   } else if (adds_) {
     throw bench::OutputError(
         fmt::format("{} holds no finished sequence to add formats to; leave --add out to make one, "
@@ -141,7 +139,7 @@ void SequenceFolder::begin() {
     }
   } else {
     const fs::path beside = output_.work() / fmt::format("{}{}", own_name(), kPartial);
-    bench::write_file(beside, own.json().dump());
+    bench::write_file(beside, bench::json_text(own.json()));
     move(beside, plan_file());
   }
   if (finished_) take_earlier();
@@ -230,7 +228,7 @@ void SequenceFolder::add(int frame, const FrameOutput& output, const Agreements&
       }
       entry.files.push_back(record);
     }
-    journal_->add(Json{{"frame", frame}, {"entry", entry}}.dump());
+    journal_->add(bench::json_text(Json{{"frame", frame}, {"entry", entry}}));
   } catch (const bench::OutputError&) {
     if (!is_finished_by_another()) throw;
   }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,7 +86,8 @@ class SequenceFolder {
   void begin();
   void refresh();
   void take_earlier() const;
-  std::string other_than(const bench::Provenance& there) const;
+  std::string other_than(const bench::Provenance& there,
+                         std::span<const std::string_view> but = {}) const;
   bool is_finished_by_another() const;
 
   bench::Output output_;

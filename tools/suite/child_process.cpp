@@ -53,7 +53,7 @@ std::string complaint_of(const Exit& exit) {
     return fmt::format("crashed: ended by signal {} ({}){}{}", exit.signal,
                        ::strsignal(exit.signal), said.empty() ? "" : "; it said: ", said);
   }
-  if (exit.code == 2 && !said.empty()) return said;
+  if ((exit.code == 2 || exit.code == kCannotWrite) && !said.empty()) return said;
   return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
 }
 
@@ -68,7 +68,7 @@ std::vector<std::string> warnings_of(const Exit& exit) {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
-  std::vector<std::string> command{"lcs"};
+  std::vector<std::string> command{kChildName};
   command.insert(command.end(), arguments.begin(), arguments.end());
   err_ = ::memfd_create("stderr", MFD_CLOEXEC);
   if (err_ < 0)

@@ -12,6 +12,11 @@
 
 namespace lcs::suite {
 
+/// The program's name in a child process. A child whose result cannot be written, as on a full disk,
+/// exits with `kCannotWrite`, so that this is told apart from a scenario that cannot be run.
+inline constexpr const char* kChildName = "lcs-child";
+inline constexpr int kCannotWrite = 3;
+
 /// How a process ended.
 struct Exit {
   int code = 0;     ///< exit code, if no signal ended the process
