@@ -5,7 +5,12 @@
 /// `strace --inject` is not used, because it counts the calls of each process and each thread for
 /// themselves: "the seventh write" fails once in each process that writes seven times. Here a call
 /// has a name that is the same in each run: its kind, its path, and which one of this kind and path
-/// it is. Process numbers in staging folders (`.partial-4711`) count as equal.
+/// it is. Process numbers in paths (`made.partial-4711`) count as equal.
+///
+/// The actions: EIO and ENOSPC let the call fail; full lets a write take half of its bytes, and from
+/// then on fails all that takes room; kill, kill-first and kill-all send SIGKILL after the call to
+/// the process that made it, to the first process, to all of them; kill-torn as kill, after half of
+/// a write.
 #include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -23,6 +28,7 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -50,6 +56,7 @@ struct Kind {
   int other_folder = -1, other_path = -1; // renameat(..., OTHER_FOLDER, OTHER_PATH)
   int file = -1;                          // write(FILE)
   int flags = -1;                         // open(..., FLAGS)
+  int size = -1;                          // write(..., SIZE)
   bool takes_room = false;                // fails on a full disk
 };
 
@@ -58,12 +65,12 @@ const std::map<long, Kind>& kinds() {
       {SYS_open, {.name = "open", .path = 0, .flags = 1}},
       {SYS_openat, {.name = "open", .folder = 0, .path = 1, .flags = 2}},
       {SYS_creat, {.name = "create", .path = 0, .takes_room = true}},
-      {SYS_write, {.name = "write", .file = 0, .takes_room = true}},
+      {SYS_write, {.name = "write", .file = 0, .size = 2, .takes_room = true}},
       {SYS_writev, {.name = "write", .file = 0, .takes_room = true}},
-      {SYS_pwrite64, {.name = "write", .file = 0, .takes_room = true}},
+      {SYS_pwrite64, {.name = "write", .file = 0, .size = 2, .takes_room = true}},
       {SYS_pwritev, {.name = "write", .file = 0, .takes_room = true}},
-      {SYS_sendfile, {.name = "sendfile", .file = 0, .takes_room = true}},
-      {SYS_copy_file_range, {.name = "copy_file_range", .file = 2, .takes_room = true}},
+      {SYS_sendfile, {.name = "sendfile", .file = 0, .size = 3, .takes_room = true}},
+      {SYS_copy_file_range, {.name = "copy_file_range", .file = 2, .size = 4, .takes_room = true}},
       {SYS_fallocate, {.name = "fallocate", .file = 0, .takes_room = true}},
       {SYS_ftruncate, {.name = "ftruncate", .file = 0}},
       {SYS_truncate, {.name = "truncate", .path = 0}},
@@ -140,7 +147,7 @@ bool is_to_write(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }
 class Tracer {
  public:
   std::string folder, list, target;  // the target is "KIND PATH NUMBER"
-  std::string action;                // EIO, ENOSPC, full, kill, kill-first, kill-all
+  std::string action;                // EIO, ENOSPC, see above
 
   int run(char** command) {
     out_ = std::fopen(list.c_str(), "we");
@@ -167,6 +174,8 @@ class Tracer {
     std::string name;
     bool is_target = false;
     int injected = 0;  // the error that the call gets although it was carried out
+    int size_register = -1;  // of a call that writes only half of this size
+    std::uint64_t size = 0;
   };
 
   void start(char** command) {
@@ -211,6 +220,7 @@ class Tracer {
 
   void stopped(pid_t task, int status) {
     tasks_.insert(task);
+    numbers_.insert(std::to_string(task));
     const int signal = WSTOPSIG(status), event = status >> 16;
     if (event == PTRACE_EVENT_SECCOMP) return entered(task);
     if (signal == (SIGTRAP | 0x80)) return left(task);
@@ -222,6 +232,13 @@ class Tracer {
   }
 
   static void go_on(pid_t task, int signal = 0) { ::ptrace(PTRACE_CONT, task, 0, signal); }
+
+  /// The registers of a call's arguments.
+  static constexpr std::array<int, 6> kRegisters{RDI, RSI, RDX, R10, R8, R9};
+
+  static void poke(pid_t task, int where, std::uint64_t value) {
+    ::ptrace(PTRACE_POKEUSER, task, sizeof(long) * static_cast<unsigned>(where), value);
+  }
 
   void entered(pid_t task) {
     __ptrace_syscall_info info{};
@@ -238,13 +255,23 @@ class Tracer {
       if (action == "EIO") error = EIO;
       if (action == "ENOSPC") error = ENOSPC;
       is_full_ = action == "full";
+      if (action == "full" || action == "kill-torn") {
+        const std::uint64_t size = kind.size < 0 ? 0 : info.seccomp.args[kind.size];
+        if (size > 1) {
+          call.size_register = kRegisters[kind.size];
+          call.size = size;
+          poke(task, call.size_register, size / 2);
+          ::ptrace(PTRACE_SYSCALL, task, 0, 0);
+          return;
+        }
+      }
     }
     if (is_full_ && takes_room) error = ENOSPC;
     if (error != 0 && std::strcmp(kind.name, "close") == 0) {
       call.injected = error;  // Linux closes the file even if it reports an error
     } else if (error != 0) {
-      ::ptrace(PTRACE_POKEUSER, task, sizeof(long) * ORIG_RAX, -1L);
-      ::ptrace(PTRACE_POKEUSER, task, sizeof(long) * RAX, static_cast<long>(-error));
+      poke(task, ORIG_RAX, ~std::uint64_t{0});
+      poke(task, RAX, static_cast<std::uint64_t>(-error));
       note(task, call, -error, true);
       pending_.erase(task);
       return go_on(task);
@@ -259,14 +286,13 @@ class Tracer {
     pending_.erase(found);
     __ptrace_syscall_info info{};
     ::ptrace(PTRACE_GET_SYSCALL_INFO, task, sizeof info, &info);
-    if (call.injected != 0) {
-      ::ptrace(PTRACE_POKEUSER, task, sizeof(long) * RAX, static_cast<long>(-call.injected));
-    }
+    if (call.injected != 0) poke(task, RAX, static_cast<std::uint64_t>(-call.injected));
+    if (call.size_register >= 0) poke(task, call.size_register, call.size);
     const bool is_kill = call.is_target && action.starts_with("kill");
     note(task, call, call.injected != 0 ? -call.injected : info.exit.rval,
-         is_kill || call.injected != 0);
+         is_kill || call.injected != 0 || call.size_register >= 0);
     if (is_kill) {
-      if (action == "kill") ::kill(process_of(task), SIGKILL);
+      if (action == "kill" || action == "kill-torn") ::kill(process_of(task), SIGKILL);
       if (action == "kill-first") ::kill(first_, SIGKILL);
       if (action == "kill-all") {
         std::set<pid_t> processes;
@@ -293,11 +319,20 @@ class Tracer {
     return path == folder || (path.starts_with(folder) && path[folder.size()] == '/');
   }
 
+  /// A path within the folder, with P in place of the numbers of the command's processes.
   std::string shortened(const std::string& path) const {
-    static const std::regex process(R"(\.partial-[0-9]+)");
     const std::string within =
         !is_inside(path) ? path : path == folder ? "." : path.substr(folder.size() + 1);
-    std::string text = std::regex_replace(within, process, ".partial-P");
+    static const std::regex number("[0-9]+");
+    std::string text;
+    std::size_t done = 0;
+    for (std::sregex_iterator found(within.begin(), within.end(), number), end; found != end;
+         ++found) {
+      text += within.substr(done, static_cast<std::size_t>(found->position()) - done);
+      text += numbers_.contains(found->str()) ? "P" : found->str();
+      done = static_cast<std::size_t>(found->position() + found->length());
+    }
+    text += within.substr(done);
     if (text.ends_with(" (deleted)")) text.resize(text.size() - 10);
     std::ranges::replace_if(text, [](char c) { return c == '\t' || c == '\n'; }, '?');
     return text;
@@ -338,7 +373,8 @@ class Tracer {
   pid_t first_ = 0;
   bool is_full_ = false;
   std::FILE* out_ = nullptr;
-  std::set<pid_t> tasks_;
+  std::set<pid_t> tasks_;          // those that run
+  std::set<std::string> numbers_;  // of all tasks, also of those that have ended
   std::map<pid_t, Pending> pending_;
   std::map<std::string, int> seen_;
 };
