@@ -1,16 +1,16 @@
 /// \file
-/// Runs a command, counts the system calls of all its processes that touch one folder, and makes one
-/// of them fail, or kills after it.
+/// Runs a command, counts the system calls of all its processes that touch one folder, and makes
+/// one of them fail, or kills after it.
 ///
 /// `strace --inject` is not used, because it counts the calls of each process and each thread for
 /// themselves: "the seventh write" fails once in each process that writes seven times. Here a call
 /// has a name that is the same in each run: its kind, its path, and which one of this kind and path
 /// it is. Process numbers in paths (`made.partial-4711`) count as equal.
 ///
-/// The actions: EIO and ENOSPC let the call fail; full lets a write take half of its bytes, and from
-/// then on fails all that takes room; kill, kill-first and kill-all send SIGKILL after the call to
-/// the process that made it, to the first process, to all of them; kill-torn as kill, after half of
-/// a write.
+/// The actions: EIO and ENOSPC let the call fail; full lets a write take half of its bytes, and
+/// from then on fails all that takes room; kill, kill-first and kill-all send SIGKILL after the
+/// call to the process that made it, to the first process, to all of them; kill-torn as kill, after
+/// half of a write.
 #include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -52,12 +52,12 @@ namespace fs = std::filesystem;
 /// The arguments of a call that name a file. -1: the call has none.
 struct Kind {
   const char* name;
-  int folder = -1, path = -1;             // openat(FOLDER, PATH)
-  int other_folder = -1, other_path = -1; // renameat(..., OTHER_FOLDER, OTHER_PATH)
-  int file = -1;                          // write(FILE)
-  int flags = -1;                         // open(..., FLAGS)
-  int size = -1;                          // write(..., SIZE)
-  bool takes_room = false;                // fails on a full disk
+  int folder = -1, path = -1;              // openat(FOLDER, PATH)
+  int other_folder = -1, other_path = -1;  // renameat(..., OTHER_FOLDER, OTHER_PATH)
+  int file = -1;                           // write(FILE)
+  int flags = -1;                          // open(..., FLAGS)
+  int size = -1;                           // write(..., SIZE)
+  bool takes_room = false;                 // fails on a full disk
 };
 
 const std::map<long, Kind>& kinds() {
@@ -111,8 +111,7 @@ std::string string_at(pid_t task, unsigned long address) {
   while (text.size() < PATH_MAX) {
     // Not over the end of a page, behind which there may be none.
     const std::size_t size = std::min(block.size(), 4096 - (address + text.size()) % 4096);
-    const iovec to{block.data(), size},
-        from{reinterpret_cast<void*>(address + text.size()), size};
+    const iovec to{block.data(), size}, from{reinterpret_cast<void*>(address + text.size()), size};
     const ssize_t got = ::process_vm_readv(task, &to, 1, &from, 1, 0);
     if (got <= 0) break;
     const std::size_t length = ::strnlen(block.data(), static_cast<std::size_t>(got));
@@ -142,7 +141,9 @@ int flags_of(pid_t task, int file) {
   return static_cast<int>(flags);
 }
 
-bool is_to_write(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }
+bool is_to_write(int flags) {
+  return (flags & O_ACCMODE) != O_RDONLY;
+}
 
 class Tracer {
  public:
@@ -173,7 +174,7 @@ class Tracer {
   struct Pending {
     std::string name;
     bool is_target = false;
-    int injected = 0;  // the error that the call gets although it was carried out
+    int injected = 0;        // the error that the call gets although it was carried out
     int size_register = -1;  // of a call that writes only half of this size
     std::uint64_t size = 0;
   };
@@ -202,7 +203,8 @@ class Tracer {
     ::close(gate[1]);
   }
 
-  /// Lets the kernel stop this process and its children at the calls of the table, and at no others.
+  /// Lets the kernel stop this process and its children at the calls of the table, and at no
+  /// others.
   static void stop_at_calls() {
     std::vector<sock_filter> program{
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr))};
@@ -321,8 +323,9 @@ class Tracer {
 
   /// A path within the folder, with P in place of the numbers of the command's processes.
   std::string shortened(const std::string& path) const {
-    const std::string within =
-        !is_inside(path) ? path : path == folder ? "." : path.substr(folder.size() + 1);
+    const std::string within = !is_inside(path) ? path
+                               : path == folder ? "."
+                                                : path.substr(folder.size() + 1);
     static const std::regex number("[0-9]+");
     std::string text;
     std::size_t done = 0;
@@ -334,7 +337,8 @@ class Tracer {
     }
     text += within.substr(done);
     if (text.ends_with(" (deleted)")) text.resize(text.size() - 10);
-    std::ranges::replace_if(text, [](char c) { return c == '\t' || c == '\n'; }, '?');
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\t' || c == '\n'; }, '?');
     return text;
   }
 

@@ -21,12 +21,14 @@ Exit codes: 0 nothing fell; 1 something did; 2 the cases themselves do not work;
 """
 import argparse
 import collections
+import concurrent.futures
 import dataclasses
 import gzip
 import hashlib
 import json
 import os
 import pathlib
+import queue
 import re
 import shutil
 import signal
@@ -186,6 +188,10 @@ def flattened(value, key=""):
         yield key, value
 
 
+FAILED_RUNS = "a result with failed runs"
+# A finished piece of work, as the commands that go on keep it.
+FINISHED = re.compile(r" -> (\S+(?:\.unfinished/in/(?:beside/\w+/)?runs/[^/ ]+/seed-\d+|"
+                      r"/\.generate/frame-\d+\.json))$")
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d)?(?:\.\d+)?Z?")
 TOKEN = re.compile(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|[A-Za-z_]+|\s+|.", re.S)
 
@@ -406,6 +412,9 @@ class Trial:
             end = bench.lcs(case.command) if i else self.first()
             if end.code not in case.fine:
                 raise CannotWork(f"lcs {' '.join(case.command)}: exit code {end.code}: {end.err}")
+            if case.name.startswith(("suite", "generate")) and \
+                    not any(FINISHED.search(call.path) for call in self.calls):
+                raise CannotWork("no finished run or frame is seen; see FINISHED")
             self.reference.add(bench.here)
             self.usual = {without_numbers(line) for line in said(end.err)}
         self.old = {name: data for name, data in contents(self.template).items()
@@ -434,7 +443,7 @@ class Trial:
                 lost = [name for name, data in self.old.items()
                         if now.get(name) != data and not name.endswith("README.md")]
                 return f"{lost[0]} of the earlier result was changed" if lost else "growing"
-        return "a result with failed runs" if self.tells_failed_runs() else fault
+        return FAILED_RUNS if self.tells_failed_runs() else fault
 
     def tells_failed_runs(self):
         """Whether the target is a whole suite that tells of runs which failed."""
@@ -445,6 +454,14 @@ class Trial:
         except (OSError, ValueError, KeyError):
             return False
         return "WRONG" not in record and '"error"' in json.dumps(scenarios)
+
+    def lost_work(self, calls):
+        """A piece of work that was finished and is gone, or ""."""
+        for call in calls:
+            found = FINISHED.search(call.path)
+            if found and call.result == 0 and not (self.bench.here / found[1]).exists():
+                return f"work is lost: {found[1]} was finished, and is gone"
+        return ""
 
     def repeat(self):
         """Runs the undisturbed command. Returns what is wrong then, or ""."""
@@ -473,11 +490,13 @@ class Trial:
     def fault(self, call, action):
         """Lets one call fail. Returns what is wrong, or ""; None if the call was not reached."""
         self.bench.restore(self.template)
-        end, _, is_reached = self.bench.traced(self.case.command, call.target, action)
+        end, calls, is_reached = self.bench.traced(self.case.command, call.target, action)
         if not is_reached:
             return None
         wrong = []
         state = self.state()
+        if state not in ("new", FAILED_RUNS):
+            wrong.append(self.lost_work(calls))
         if end.code in self.case.fine:
             if state != "new":
                 wrong.append(f"exit code {end.code}, but {state}")
@@ -497,12 +516,14 @@ class Trial:
     def crash(self, call, action):
         """Kills after one call. Returns what is wrong, or ""; None if the call was not reached."""
         self.bench.restore(self.template)
-        end, _, is_reached = self.bench.traced(self.case.command, call.target, action)
+        end, calls, is_reached = self.bench.traced(self.case.command, call.target, action)
         if not is_reached:
             return None
         wrong = []
         state = self.state()
-        is_told = state == "a result with failed runs" and not call.is_first and \
+        if state not in ("new", FAILED_RUNS):
+            wrong.append(self.lost_work(calls))
+        is_told = state == FAILED_RUNS and not call.is_first and \
             action in ("kill", "kill-torn")
         if self.case.never_torn and not is_told and state not in ("old", "new", "growing"):
             wrong.append(f"neither old nor new: {state}")
@@ -587,9 +608,9 @@ def try_all(bench, case, with_earlier):
             row.crashes += 1
         if fault:
             row.fell.append((action, str(call), fault))
-            note(f"  FELL {action:10} {call}: {fault}")
+            note(f"{row.label}: FELL {action} at {call}: {fault}")
     row.seconds = time.monotonic() - start
-    note(f"  {row.faults} faults, {row.crashes} crash states (every {row.every}.), "
+    note(f"{row.label}: {row.faults} faults, {row.crashes} crash states (every {row.every}.), "
          f"{len(row.fell)} fell, {row.missed} not reached, {row.seconds:.0f} s")
     return row
 
@@ -655,6 +676,8 @@ def main():
                         help="every N-th disturbance, 1 for all; chosen by --most if not given")
     parser.add_argument("--most", type=int, default=30, metavar="N",
                         help="about N disturbances of a command; %(default)s if not given")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="commands at a time; one on each core if not given")
     parser.add_argument("--timeout", type=float, default=120, metavar="SECONDS",
                         help="when a command counts as hanging")
     parser.add_argument("--work", metavar="DIR", help="folder for the cases; a temporary one")
@@ -671,22 +694,36 @@ def main():
     if options.work:
         os.makedirs(options.work, exist_ok=True)
     home = pathlib.Path(tempfile.mkdtemp(prefix="every_fault_", dir=options.work)).resolve()
-    rows, status = [], 0
+    rows, failed = [], []
+    benches = queue.SimpleQueue()  # those at which nobody works
+
+    def work(case, with_earlier):
+        bench = benches.get()
+        try:
+            rows.append(try_all(bench, case, with_earlier))
+        except CannotWork as error:
+            note(f"{case.name} does not work: {error}")
+            failed.append(case.name)
+        finally:
+            benches.put(bench)
+
     try:
         options.tracer = tracer_of(options, home)
-        bench = Bench(options, home)
+        for number in range(options.jobs):
+            place = home / str(number)
+            place.mkdir()
+            benches.put(Bench(options, place))
         python = os.environ.get("LCS_PYTHON", "python3")
-        for case in chosen:
-            if not is_able(case, python):
-                note(f"{case.name}: left out, as {python} lacks its library")
-                continue
-            for with_earlier in [False, True] if case.earlier and not always_over(case) else [
-                    bool(case.earlier)]:
-                try:
-                    rows.append(try_all(bench, case, with_earlier))
-                except CannotWork as error:
-                    note(f"{case.name} does not work: {error}")
-                    status = 2
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            works = []
+            for case in chosen:
+                if not is_able(case, python):
+                    note(f"{case.name}: left out, as {python} lacks its library")
+                    continue
+                for with_earlier in variants(case):
+                    works.append(pool.submit(work, case, with_earlier))
+            for one in works:
+                one.result()
     finally:
         if rows:
             causes(rows)
@@ -695,12 +732,14 @@ def main():
             note(f"the cases are in {home}")
         else:
             shutil.rmtree(home, ignore_errors=True)
-    return status or int(any(row.fell for row in rows))
+    return 2 if failed else int(any(row.fell for row in rows))
 
 
-def always_over(case):
-    """Whether the command needs the earlier result."""
-    return "--add" in case.command
+def variants(case):
+    """Whether there is an earlier result: in one run of the case, and in another."""
+    if not case.earlier:
+        return [False]
+    return [True] if "--add" in case.command else [False, True]
 
 
 if __name__ == "__main__":
