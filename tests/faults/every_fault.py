@@ -455,7 +455,8 @@ class Trial:
             scenarios = json.loads((folder / "suite.json").read_text())["scenarios"]
         except (OSError, ValueError, KeyError):
             return False
-        return "WRONG" not in record and '"error"' in json.dumps(scenarios)
+        return "WRONG" not in record and any(
+            run["outcome"] == "error" for one in scenarios for run in one["runs"])
 
     def lost_work(self, calls):
         """A piece of work that was finished and is gone, or ""."""
