@@ -340,8 +340,6 @@ class Bench:
         self.list = home / "calls"
         self.environment = dict(os.environ, TMPDIR=str(self.here / "tmp"), LC_ALL="C.UTF-8",
                                 PYTHONDONTWRITEBYTECODE="1")
-        for name in ("LCS_THREADS", "CI"):
-            self.environment.pop(name, None)
 
     def start(self, words):
         with open(self.home / "err", "w+b") as err, open(self.home / "out", "w+b") as out:
@@ -719,6 +717,10 @@ def main():
 
     try:
         options.tracer = tracer_of(options, home)
+        if subprocess.run([options.tracer, str(home), str(home / "calls"), "", "", "true"],
+                          check=False).returncode != 0:
+            note("SKIPPED: no process can be traced here (ptrace, seccomp)")
+            return 77
         for number in range(options.jobs):
             place = home / str(number)
             place.mkdir()
