@@ -667,7 +667,7 @@ def is_able(case, python):
 def tracer_of(options, home):
     """Compiles call_tracer, unless it is given."""
     if options.tracer:
-        return options.tracer
+        return str(pathlib.Path(options.tracer).resolve())
     program = home / "call_tracer"
     subprocess.run(["c++", "-std=c++20", "-O1", "-o", program, HERE / "call_tracer.cpp"], check=True)
     return str(program)
