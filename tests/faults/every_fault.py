@@ -14,7 +14,7 @@ every crash state  the command runs again and is killed (SIGKILL) right after on
 After each of them the same command, undisturbed, gives the bytes of one that was never disturbed, and
 leaves nothing beside them. Bytes that differ between undisturbed runs (dates, seconds) do not count.
 
-By default each command gets about 30 disturbances, spread over its calls; --every 1 tries all, which
+By default each command gets about 50 disturbances, spread over its calls; --every 1 tries all, which
 takes hours.
 
 Exit codes: 0 nothing fell; 1 something did; 2 the cases themselves do not work; 77 cannot run here.
@@ -682,7 +682,7 @@ def main():
     parser.add_argument("--call", help="only calls with this text in their description")
     parser.add_argument("--every", type=int, default=0, metavar="N",
                         help="every N-th disturbance, 1 for all; chosen by --most if not given")
-    parser.add_argument("--most", type=int, default=30, metavar="N",
+    parser.add_argument("--most", type=int, default=50, metavar="N",
                         help="about N disturbances of a command; %(default)s if not given")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="commands at a time; one on each core if not given")
