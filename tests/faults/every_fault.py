@@ -514,7 +514,7 @@ class Trial:
             if state not in ("old", "new", "growing"):
                 wrong.append(f"neither old nor new: {state}")
         wrong.append(self.repeat())
-        return "; ".join(filter(None, wrong))
+        return " || ".join(filter(None, wrong))
 
     def crash(self, call, action):
         """Kills after one call. Returns what is wrong, or ""; None if the call was not reached."""
@@ -538,7 +538,7 @@ class Trial:
         elif end.code == -999:
             wrong.append("it does not end")
         wrong.append(self.repeat())
-        return "; ".join(filter(None, wrong))
+        return " || ".join(filter(None, wrong))
 
 
 def plan_of(calls):
@@ -625,11 +625,11 @@ def try_all(bench, case, with_earlier):
 
 def cause_of(fault):
     """A fault without what is special to its call, so that equal ones can be counted."""
-    fault = re.sub(r"/\S*/", "", fault)
-    fault = re.sub(r"[\w.-]+\.(json|jsonl|csv|mp4|png|jpg|yaml|txt|xml|html|gz|lcs-written)\b", "FILE",
-                   fault)
-    fault = re.sub(r"made(\.\w+)?-\d+", "STAGING", fault)
-    return re.sub(r"\d{2,}", "0", fault)[:200]
+    fault = re.sub(r"warning: [^|]* \| ", "", fault).replace("Input/output", "Input-output")
+    fault = re.sub(r"[\w./-]*(?:/|\.(?:partial-|unfinished|json|csv|mp4|mcap|png|jpg|yaml|txt|xml|html|"
+                   r"gz|obj|mjpeg|md|lcs-written))[\w./-]*", "PATH", fault)
+    fault = re.sub(r"PATH: PATH\b", "PATH", fault)
+    return re.sub(r"\w+ seed \d+|\d{2,}|'[^']*'", "N", fault)[:160]
 
 
 def causes(rows):
@@ -637,7 +637,8 @@ def causes(rows):
     groups = collections.defaultdict(list)
     for row in rows:
         for action, call, fault in row.fell:
-            groups[cause_of(fault)].append((row.label, action, call, fault))
+            for part in fault.split(" || "):
+                groups[cause_of(part)].append((row.label, action, call, part))
     for cause, all_of_it in sorted(groups.items(), key=lambda item: -len(item[1])):
         label, action, call, fault = all_of_it[0]
         note(f"\n{len(all_of_it)} times: {cause}\n  as {label}: {action} at {call}\n  {fault}")
