@@ -496,7 +496,7 @@ class Trial:
             return None
         wrong = []
         state = self.state()
-        if state not in ("new", FAILED_RUNS):
+        if state not in ("new", FAILED_RUNS) and end.code not in self.case.fine:
             wrong.append(self.lost_work(calls))
         if end.code in self.case.fine:
             if state != "new":
@@ -524,7 +524,7 @@ class Trial:
             return None
         wrong = []
         state = self.state()
-        if state not in ("new", FAILED_RUNS):
+        if state not in ("new", FAILED_RUNS) and end.code not in self.case.fine:
             wrong.append(self.lost_work(calls))
         is_told = state == FAILED_RUNS and not call.is_first and \
             action in ("kill", "kill-torn")
