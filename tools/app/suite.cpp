@@ -176,6 +176,11 @@ SuitePlan plan_scenarios(const SuiteRequest& request, int seeds,
                               .sets = request.sets,
                               .seeds = seeds});
   if (request.shard.empty()) return planned;
+  for (const suite::PlannedScenario& one : planned.plan) {
+    if (one.error.empty()) continue;
+    throw std::runtime_error(
+        fmt::format("{} (the parts of a suite have to agree on all its scenarios)", one.error));
+  }
   suite::Runs whole;
   for (const suite::PlannedScenario& one : planned.plan) whole.emplace_back(one.name, one.seeds);
   std::set<std::pair<std::string, std::uint64_t>> runs;
@@ -209,6 +214,13 @@ nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& pl
   return facts;
 }
 
+/// Writes run.json at once, so that a kill leaves no part of it.
+void write_how_made(const bench::Output& folder, const SuiteRequest& request,
+                    const bench::Provenance& provenance) {
+  app::write_how_made(folder.work(), suite::shell_line(arguments_of(request)), provenance);
+  fs::rename(folder.work() / bench::kHowMadeFile, folder.staging() / bench::kHowMadeFile);
+}
+
 /// Goes on with an unfinished suite of the same provenance, or begins anew.
 /// \throws std::runtime_error if there is an unfinished suite of another one.
 void begin(bench::Output& folder, const bench::Provenance& provenance,
@@ -216,7 +228,7 @@ void begin(bench::Output& folder, const bench::Provenance& provenance,
   const fs::path& staging = folder.staging();
   if (request.anew || !fs::exists(staging / bench::kHowMadeFile)) {
     if (!fs::is_empty(staging)) folder.empty();
-    return write_how_made(staging, suite::shell_line(arguments_of(request)), provenance);
+    return write_how_made(folder, request, provenance);
   }
   const bench::Provenance there = bench::read_how_made(staging);
   std::string what = bench::difference(there, provenance);
@@ -378,7 +390,7 @@ SuiteMade Making::made() {
     Results results = run_all(folder);
     watch_.wipe();
     results.own.recorded = recorded;
-    write_how_made(folder.staging(), suite::shell_line(arguments_of(request_)), provenance_);
+    write_how_made(folder, request_, provenance_);
     if (of_worlds_) write_sheets(folder.staging(), planned_.plan, results.own, caller_);
     return finish_suite(folder, request_.place, std::move(results.own), std::move(results.others),
                         baseline, caller_);

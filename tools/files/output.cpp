@@ -19,12 +19,14 @@
 #include "tools/files/written.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/message.h"
+#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostBytesOfDigest = 100;
 constexpr const char* kAnother = "choose another place, or move it away";
 
 /// The absolute path without a trailing slash. Links are resolved except in the last component.
@@ -45,9 +47,11 @@ std::vector<const Output*>& under_way() {
 
 /// The staging folder of a target is `TARGET.partial-PROCESS/`, or `TARGET.unfinished/` if it is
 /// kept. It contains the marker, the folder "in" for the new result, the folder "out" for the
-/// earlier result, and the folder "work" for what is no part of the result.
+/// earlier result, the folder "work" for what is no part of the result, and from the commit on the
+/// file "commit" with the digest of the new result's record.
 constexpr std::string_view kPartial = ".partial-", kUnfinished = ".unfinished";
-constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out", kWork = "work";
+constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out", kWork = "work",
+                           kCommit = "commit";
 
 std::string marker_text(std::string_view folder_name) {
   return fmt::format("lcs writes its results here, and takes this folder away: {}\n", folder_name);
@@ -93,8 +97,9 @@ bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
   fs::path of_result;
   bool is_beside = true;  // directly in a staging folder
   for (const fs::path& name : within) {
-    if (is_beside && name == kMarker)
+    if (is_beside && (name == kMarker || name == kCommit)) {
       return entry.symlink_status().type() == fs::file_type::regular;
+    }
     if (!is_beside || (name != kIn && name != kOut && name != kWork)) of_result /= name;
     is_beside = name.native().find(kPartial) != std::string::npos;
   }
@@ -521,9 +526,13 @@ void Output::take_unfinished() {
     refuse(fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
   }
   if (unfinished_ == Unfinished::shared) return;
-  // A process was killed while it moved its result: before the end, or after.
+  // A process was killed while it moved its result: before the end, or after. If the new result is
+  // in its place, "in" may have the earlier one.
   rename_by(own_ / kOut, target_, RENAME_NOREPLACE);
-  if (fs::exists(own_ / kOut)) {
+  const std::string committed = beginning(own_ / kCommit, kMostBytesOfDigest);
+  const bool is_done =
+      !committed.empty() && input::sha256_of_file(target_ / kRecordName) == committed;
+  if (is_done || fs::exists(own_ / kOut)) {
     remove_own(own_, names_);
     lock_.reset();
   }
@@ -564,6 +573,12 @@ void Output::commit() {
 void put_in_place(std::span<Output* const> outputs) {
   std::vector<std::pair<Output::Move, bool>> done;
   try {
+    for (const Output* output : outputs) {
+      if (!output->is_folder()) continue;
+      write_file(output->own_ / kCommit,
+                 input::sha256_of_file(output->staging_ / kRecordName).value_or(""));
+      flush_to_disk(output->own_ / kCommit);
+    }
     for (const Output* output : outputs) {
       for (const Output::Move& move : output->moves()) done.emplace_back(move, move.put());
     }

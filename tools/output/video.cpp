@@ -40,7 +40,9 @@ void Video::write(const cv::Mat3b& frame) {
 void Video::close() {
   writer_->release();
   const auto written = open_video(path_);
-  if (!written->isOpened() || static_cast<int>(written->get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
+  const std::string first = beginning(path_, 8);  // FFmpeg reads a file without this box, too
+  if (!first.ends_with("ftyp") || !written->isOpened() ||
+      static_cast<int>(written->get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
     require_writable(path_);
     throw OutputError(fmt::format(
         "{} did not become whole; make room there, choose another folder with --out, or use "

@@ -170,6 +170,7 @@ void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
     return;
   }
   run.folder = folder_of(planned, run.seed);
+  bench::remove_abandoned(folder, bench::result_files());  // which it could not remove by itself
   provenance.add_read(bench::read_how_made(folder),
                       fmt::format("{} seed {}", planned.name, run.seed));
   try {
