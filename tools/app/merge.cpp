@@ -1,7 +1,5 @@
 #include "tools/app/merge.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
