@@ -144,7 +144,7 @@ void parse(const Arguments& words, const app::Options& options) {
       return word->starts_with("--") ? one.name == *word : one.is_argument();
     });
     ASSERT_NE(option, options.end()) << *word;
-    if (option->kind() == app::Option::Kind::flag) {
+    if (option->kind == app::Option::Kind::flag) {
       option->read(option->is_negative() ? "false" : "true");
     } else {
       option->read(option->is_argument() ? *word : *++word);
@@ -161,12 +161,12 @@ TYPED_TEST_SUITE(Rows, Requests);
 
 TYPED_TEST(Rows, ComeBackFromTheCommandLineThatTheyMake) {
   TypeParam unset;
-  EXPECT_EQ(app::arguments_of(unset), Arguments{TypeParam::kCommand});
+  EXPECT_EQ(app::arguments_of(unset), Arguments{options_of(unset).command});
   TypeParam request;
   const app::Options options = options_of(request);
   for (const app::Option& option : options) {
     if (option.name.empty() || option.name == "--for") continue;
-    const bool is_flag = option.kind() == app::Option::Kind::flag;
+    const bool is_flag = option.kind == app::Option::Kind::flag;
     option.read(is_flag                      ? (option.is_negative() ? "false" : "true")
                 : option.name == "--threads" ? "2"
                 : option.name == "--seed"    ? "18446744073709551615"
@@ -175,7 +175,6 @@ TYPED_TEST(Rows, ComeBackFromTheCommandLineThatTheyMake) {
     if (option.takes_several()) option.read("another");
   }
   const Arguments words = app::arguments_of(request);
-  EXPECT_EQ(words.front(), TypeParam::kCommand);
   TypeParam again;
   const app::Options parsed = options_of(again);
   parse({words.begin() + 1, words.end()}, parsed);

@@ -13,8 +13,6 @@
 namespace lcs::app {
 
 struct CompareRequest {
-  static constexpr const char* kCommand = "compare";
-
   std::string before, after;  ///< suite.json, or its folder
   std::string metric;         ///< regular expression; "": every metric
   std::string markdown;       ///< folder for the summary of a merge request; "": none

@@ -17,8 +17,6 @@
 namespace lcs::app {
 
 struct GenerateRequest {
-  static constexpr const char* kCommand = "generate";
-
   std::vector<std::string> paths;    ///< one scenario file; with `suite`: files and folders
   bool suite = false;                ///< one sequence for each scenario and seed
   WorldsChoice worlds;               ///< a sequence for each world, in place of `paths`

@@ -1,7 +1,5 @@
 #include "tools/app/kinematics.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "scenarios/load.h"

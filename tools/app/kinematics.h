@@ -13,8 +13,6 @@
 namespace lcs::app {
 
 struct KinematicsRequest {
-  static constexpr const char* kCommand = "kinematics";
-
   std::string config;             ///< scenario file; "": `crossing.yaml` of this project
   std::vector<std::string> sets;  ///< "key=value"
   std::string out = "out/kinematics";

@@ -11,8 +11,6 @@
 namespace lcs::app {
 
 struct MergeRequest {
-  static constexpr const char* kCommand = "merge";
-
   std::vector<std::string> parts;  ///< folders
   SuitePlace place;
 };

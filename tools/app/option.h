@@ -11,9 +11,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "tools/input/reader.h"
@@ -25,15 +26,6 @@ using Texts = std::vector<std::string>;
 struct Option {
   /// From `list` on, it takes several words, each after the option's name again.
   enum class Kind { flag, text, path, whole, number, list, paths, settings };
-
-  struct Own {  ///< a value with a form of its own
-    Kind kind;
-    std::function<void(const std::string&)> read;
-    std::function<Texts()> words;
-  };
-  using Value =
-      std::variant<bool*, int*, std::optional<int>*, std::uint64_t*, std::optional<std::uint64_t>*,
-                   double*, std::string*, std::optional<std::string>*, Texts*, Own>;
 
   struct More {                 ///< what few rows have
     std::string also = {};      ///< an option for the same value as the argument
@@ -49,37 +41,45 @@ struct Option {
     std::function<std::string()> prints = {};  ///< of a flag that prints a text and does no more
   };
 
-  std::string name;  ///< "--keep", or "SCENARIO" of an argument; "": only a keyword
-  std::string type;  ///< of its value in help texts, such as "DIR"
-  Value value;
+  std::string name;   ///< "--keep", or "SCENARIO" of an argument; "": only a keyword
+  std::string type;   ///< of its value in help texts, such as "DIR"
   std::string about;  ///< help text
+  Kind kind;
+  bool is_optional;  ///< the value is absent until the option is given
+  /// Takes a word, of a flag "true" or "false". \throws input::Error, std::exception
+  std::function<void(const std::string&)> read;
+  /// The words from which `read` makes the present value; none for an absent or empty one.
+  std::function<Texts()> words;
   More more = {};
 
-  /// Takes a word, of a flag "true" or "false". \throws input::Error, std::exception
-  void read(const std::string& word) const;
-  /// The words from which `read` makes the present value; none for an absent or empty one.
-  Texts words() const;
-  Kind kind() const;
-  /// Whether the value is absent until the option is given.
-  bool is_optional() const;
   bool is_argument() const { return !name.empty() && name.front() != '-'; }
-  bool takes_several() const { return kind() >= Kind::list; }
+  bool takes_several() const { return kind >= Kind::list; }
   /// Whether the flag makes its value false, as --no-video.
   bool is_negative() const { return name.starts_with("--no-"); }
   /// As "video" of --no-video, "detector_command" of --detector-command.
   std::string keyword() const;
 };
 
-struct Options : std::vector<Option> {
-  void add(const std::string& name, const std::string& type, Option::Value member,
-           const std::string& about, Option::More more = {}) {
-    push_back({name, type, std::move(member), about, std::move(more)});
-  }
+/// The rows of a command.
+class Options : public std::vector<Option> {
+ public:
+  explicit Options(std::string its_command) : command(std::move(its_command)) {}
+
+  std::string command;  ///< its name
+
+  /// \param member a bool, an int, a seed, a double, a text or texts, or an optional of one.
+  template <class T>
+  void add(const std::string& name, const std::string& type, T* member, const std::string& about,
+           Option::More more = {});
 
   /// \name Rows of several commands
   ///@{
   void add_scenario(std::string& scenario);
-  void add_seed(Option::Value seed, const std::string& about = "Seed, instead of the scenario's");
+  /// \param seed may be an optional.
+  template <class Seed>
+  void add_seed(Seed& seed, const std::string& about = "Seed, instead of the scenario's") {
+    add("--seed", "N", &seed, about);
+  }
   void add_set(Texts& sets, const std::string& about);
   /// \param otherwise the default folder, named in the help.
   void add_out(std::string& out, const std::string& otherwise);
@@ -98,14 +98,77 @@ Texts words_of(const Options& options, const Options& usual);
 
 /// The command line that makes the request, without `lcs`.
 template <class Request>
-requires requires {
-  Request::kCommand;
+requires requires(Request request) {
+  options_of(request);
 }
 Texts arguments_of(Request request) {
   Request usual{};
-  Texts words = words_of(options_of(request), options_of(usual));
-  words.insert(words.begin(), Request::kCommand);
+  const Options options = options_of(request);
+  Texts words = words_of(options, options_of(usual));
+  words.insert(words.begin(), options.command);
   return words;
+}
+
+// ---- The kinds of members
+
+template <class T>
+inline constexpr Option::Kind kKindOf = std::is_same_v<T, bool>          ? Option::Kind::flag
+                                        : std::is_integral_v<T>          ? Option::Kind::whole
+                                        : std::is_floating_point_v<T>    ? Option::Kind::number
+                                        : std::is_same_v<T, std::string> ? Option::Kind::text
+                                                                         : Option::Kind::list;
+template <class T>
+inline constexpr Option::Kind kKindOf<std::optional<T>> = kKindOf<T>;
+
+template <class T>
+void read_into(T& out, const input::Value& word, const Option::More& more) {
+  if constexpr (requires { out.has_value(); }) {
+    read_into(out.emplace(), word, more);
+  } else if constexpr (kKindOf<T> == Option::Kind::flag) {
+    out = word.text == "true";
+  } else if constexpr (std::is_same_v<T, int>) {
+    out = static_cast<int>(input::as_integer(word, "the number", 1, more.high));
+  } else if constexpr (kKindOf<T> == Option::Kind::whole) {
+    out = input::as_seed(word, "the seed");
+  } else if constexpr (kKindOf<T> == Option::Kind::number) {
+    out = input::as_quantity(word, "the number", more.quantity);
+  } else if constexpr (kKindOf<T> == Option::Kind::text) {
+    out = word.text;
+  } else {
+    if (!more.is_joined) return out.push_back(word.text);
+    std::istringstream texts(word.text);
+    for (std::string text; std::getline(texts, text, ',');) out.push_back(text);
+  }
+}
+
+template <class T>
+Texts words_in(const T& value) {
+  if constexpr (requires { value.has_value(); }) {
+    return value ? words_in(*value) : Texts{};
+  } else if constexpr (kKindOf<T> == Option::Kind::flag) {
+    return {value ? "true" : "false"};
+  } else if constexpr (kKindOf<T> == Option::Kind::whole) {
+    return {std::to_string(value)};
+  } else if constexpr (kKindOf<T> == Option::Kind::number) {
+    return {input::number_text(value)};
+  } else if constexpr (kKindOf<T> == Option::Kind::text) {
+    return value.empty() ? Texts{} : Texts{value};
+  } else {
+    return value;
+  }
+}
+
+template <class T>
+void Options::add(const std::string& name, const std::string& type, T* member,
+                  const std::string& about, Option::More more) {
+  const auto read = [name, member, more](const std::string& word) {
+    read_into(*member, {input::Value::Kind::scalar, {name, 0}, word}, more);
+  };
+  const bool is_optional = requires {
+    member->has_value();
+  };
+  push_back({name, type, about, more.kind.value_or(kKindOf<T>), is_optional, read,
+             [member] { return words_in(*member); }, std::move(more)});
 }
 
 }  // namespace lcs::app

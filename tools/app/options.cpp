@@ -70,9 +70,11 @@ void add_results(Options& all, bool& video, bool& events) {
 void add_keep(Options& all, bench::Keep& keep) {
   const auto read = [&keep](const std::string& word) { keep = bench::keep_of(word); };
   const auto words = [&keep] { return Texts{std::string(word_of(keep))}; };
-  all.add("--keep", "WHAT", Option::Own{Kind::text, read, words},
-          "The files of each run: figures; events: also a row a frame and the events; all: also "
-          "layers, truth and pictures, for --recorded");
+  all.push_back(
+      {"--keep", "WHAT",
+       "The files of each run: figures; events: also a row a frame and the events; all: also "
+       "layers, truth and pictures, for --recorded",
+       Kind::text, false, read, words});
 }
 
 /// \param excludes name of an option that 2 threads do not go with.
@@ -150,7 +152,7 @@ void add_key(Options& all, ReplayRequest& request, const RecordingKey& key,
     return found == request.recording.end() ? Texts{} : Texts{found->second};
   };
   const Kind kind = *key.type == 0 ? Kind::flag : Kind::text;
-  all.add(flag_of(name), key.type, Option::Own{kind, read, words}, about, {.keyword = ""});
+  all.push_back({flag_of(name), key.type, about, kind, false, read, words, {.keyword = ""}});
 }
 
 Texts no_words() {
@@ -170,12 +172,12 @@ Options options_of(RunRequest& request) {
     request.frames = word;
   };
   const auto frames = [&request] { return Texts(request.frames.empty() ? 0 : 1, request.frames); };
-  Options all;
+  Options all("run");
   all.add_scenario(request.scenario);
   all.add_out(request.out, "out/<scenario>");
-  all.add_seed(&request.seed);
-  all.add("--frames", "N", Option::Own{Kind::text, read_frames, frames},
-          "Frames to run, instead of the scenario's");
+  all.add_seed(request.seed);
+  all.push_back({"--frames", "N", "Frames to run, instead of the scenario's", Kind::text, false,
+                 read_frames, frames});
   all.add_set(request.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   add_detector(all, request.detector);
   add_beside(all, request.beside);
@@ -202,10 +204,10 @@ Options options_of(ReplayRequest& request) {
     const auto [key, value] = key_and_value(assignment);
     request.recording[key] = value;
   };
-  Options all;
+  Options all("replay");
   all.add("PATH", "", &request.path, "The recording: a folder, a video, or a ROS bag",
           {.also = "--images", .is_required = true, .kind = Kind::path});
-  all.add("", "", Option::Own{Kind::settings, read, no_words}, "", {.keyword = "recording"});
+  all.push_back({"", "", "", Kind::settings, false, read, no_words, {.keyword = "recording"}});
   add_key(all, request, {"format", "NAME", ""}, layouts);
   for (const RecordingKey& key : kRecordingKeys) add_key(all, request, key, key.about);
   all.add("--ego-motion", "SOURCE", &request.ego_motion,
@@ -227,7 +229,7 @@ Options options_of(ReplayRequest& request) {
 }
 
 Options options_of(ScoreRequest& request) {
-  Options all;
+  Options all("score");
   all.add("DIR", "", &request.sequence, "Folder of a run, or of a suite",
           {.also = "--sequence", .is_required = true, .kind = Kind::path});
   all.add("--detections", "FILE", &request.detections,
@@ -241,7 +243,7 @@ Options options_of(ScoreRequest& request) {
 }
 
 Options options_of(SuiteRequest& request) {
-  Options all;
+  Options all("suite");
   all.add("PATH", "", &request.paths,
           "Scenario files, and folders of them; the project's own if not given",
           {.kind = Kind::paths, .keyword = "paths"});
@@ -279,7 +281,7 @@ Options options_of(SuiteRequest& request) {
 }
 
 Options options_of(MergeRequest& request) {
-  Options all;
+  Options all("merge");
   all.add("DIR", "", &request.parts, "The folders of all parts",
           {.is_required = true, .kind = Kind::paths, .keyword = "parts"});
   add_place(all, request.place);
@@ -301,7 +303,7 @@ Options options_of(GenerateRequest& request) {
     const input::Value use(input::Value::Kind::scalar, {"--for", 0}, word);
     request.formats = sequence::uses()[input::as_choice(use, "the use", uses)].formats;
   };
-  Options all;
+  Options all("generate");
   all.add("SCENARIO", "", &request.paths,
           "The scenario, a YAML file; with --suite files and folders, or the project's own",
           {.kind = Kind::paths, .keyword = "paths"});
@@ -312,13 +314,19 @@ Options options_of(GenerateRequest& request) {
           "data if not given",
           {.is_output = true});
   all.add("--formats", "LIST", &request.formats, formats, {.is_joined = true});
-  all.add("--for", "USE", Option::Own{Kind::text, read_use, no_words}, about_uses,
-          {.excludes = "--formats", .keyword = ""});
+  all.push_back({"--for",
+                 "USE",
+                 about_uses,
+                 Kind::text,
+                 false,
+                 read_use,
+                 no_words,
+                 {.excludes = "--formats", .keyword = ""}});
   all.add("--add", "", &request.add,
           "Add the formats to the finished sequence in --out, which the same scenario, seed and "
           "program made; files that are there stay as they are");
   all.add("--frames", "N", &request.frames, "Only the first N frames", {.high = 100'000'000});
-  all.add_seed(&request.seed);
+  all.add_seed(request.seed);
   all.add_set(request.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   all.add("--jobs", "N", &request.jobs,
           "Processes at a time; they share the frames of one scenario, or the sequences",
@@ -333,7 +341,7 @@ Options options_of(GenerateRequest& request) {
 }
 
 Options options_of(CompareRequest& request) {
-  Options all;
+  Options all("compare");
   all.add("BEFORE", "", &request.before, "A suite.json, or the folder of a suite",
           {.is_required = true, .kind = Kind::path});
   all.add("AFTER", "", &request.after, "Another one", {.is_required = true, .kind = Kind::path});
@@ -350,7 +358,7 @@ Options options_of(CompareRequest& request) {
 }
 
 Options options_of(KinematicsRequest& request) {
-  Options all;
+  Options all("kinematics");
   all.add("--config", "FILE", &request.config,
           "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given");
   all.add_set(request.sets, "Set a value of the scenario, as \"camera.fovy=90 deg\"");
@@ -363,10 +371,10 @@ Options options_of(KinematicsRequest& request) {
 }
 
 Options options_of(WorldRequest& request) {
-  Options all;
+  Options all("world");
   all.add("FAMILY", "", &request.family,
           fmt::format("One of {}", fmt::join(worlds::families(), ", ")), {.is_required = true});
-  all.add_seed(&request.seed, "Seed of the world; 1 if not given");
+  all.add_seed(request.seed, "Seed of the world; 1 if not given");
   all.add_out(request.out, "out/worlds/FAMILY_SEED");
   all.add("--pictures", "DIR", &request.pictures,
           "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from");
@@ -376,7 +384,7 @@ Options options_of(WorldRequest& request) {
 }
 
 Options options_of(TuneRequest& request) {
-  Options all;
+  Options all("tune");
   all.add("SUITE", "", &request.suites,
           "Folders of suites of train: worlds, and recordings in which nothing moves",
           {.also = "--suite", .is_required = true, .kind = Kind::paths, .keyword = "suites"});
@@ -388,7 +396,7 @@ Options options_of(TuneRequest& request) {
   all.add_set(request.sets, "Set a parameter of the filter before, as hypotheses.prior=0.05");
   all.add("--evaluations", "N", &request.evaluations, "Sets of numbers to try; 300 if not given",
           {.high = 1'000'000});
-  all.add_seed(&request.seed,
+  all.add_seed(request.seed,
                "1 starts from the present numbers, any other from a random point near them");
   all.add_out(request.out, "out/tune");
   return all;
@@ -397,7 +405,7 @@ Options options_of(TuneRequest& request) {
 Texts arguments_of(DetectorChoice choice) {
   choice.name = choice.detections = "";
   DetectorChoice usual;
-  Options all, without;
+  Options all(""), without("");
   add_detector(all, choice);
   add_detector(without, usual);
   return words_of(all, without);

@@ -1,7 +1,5 @@
 #include "tools/app/replay.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 

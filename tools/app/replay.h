@@ -25,8 +25,6 @@ struct RecordingKey {
 std::span<const RecordingKey> recording_keys();
 
 struct ReplayRequest {
-  static constexpr const char* kCommand = "replay";
-
   std::string path = {};                              ///< folder or video of the recording
   std::map<std::string, std::string> recording = {};  ///< of a scenario's `recording`
   std::string ego_motion = {};                        ///< imu or truth; "": the recording's default

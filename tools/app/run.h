@@ -23,8 +23,6 @@ namespace lcs::app {
 using ShowFrame = std::function<bool(const cv::Mat3b& sheet)>;
 
 struct RunRequest {
-  static constexpr const char* kCommand = "run";
-
   std::string scenario = {};  ///< scenario file
   std::string out = {};       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed = {};

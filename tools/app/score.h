@@ -13,8 +13,6 @@
 namespace lcs::app {
 
 struct ScoreRequest {
-  static constexpr const char* kCommand = "score";
-
   std::string sequence = {};          ///< folder of a run, or of a suite
   std::string detections = {};        ///< CSV file; "": score the run's own detector
   std::string out = {};               ///< file for the figures; "": none

@@ -19,8 +19,6 @@
 namespace lcs::app {
 
 struct SuiteRequest {
-  static constexpr const char* kCommand = "suite";
-
   std::vector<std::string> paths;    ///< scenario files and folders; empty: the project's own
   std::optional<std::string> group;  ///< absent: all for named paths, else `short`
   std::string filter;                ///< regular expression that names must match

@@ -15,8 +15,6 @@
 namespace lcs::app {
 
 struct TuneRequest {
-  static constexpr const char* kCommand = "tune";
-
   std::vector<std::string> suites;
   std::vector<std::string> validate;  ///< suites on which the result is only stated
   std::vector<std::string> keys;

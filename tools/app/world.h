@@ -14,8 +14,6 @@
 namespace lcs::app {
 
 struct WorldRequest {
-  static constexpr const char* kCommand = "world";
-
   std::string family;
   std::uint64_t seed = 1;
   std::string out;            ///< folder; "": out/worlds/FAMILY_SEED

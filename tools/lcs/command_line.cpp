@@ -36,7 +36,7 @@ CLI::Option& add_option(CLI::App& command, const app::Option& option) {
   const app::Option::More& more = option.more;
   const std::string names = more.also.empty() ? option.name : more.also + "," + option.name;
   if (more.prints) return *command.set_version_flag(names, more.prints, option.about);
-  if (option.kind() == app::Option::Kind::flag) {
+  if (option.kind == app::Option::Kind::flag) {
     const auto set = [&option] { option.read(option.is_negative() ? "false" : "true"); };
     return *command.add_flag_callback(names, set, option.about);
   }
@@ -51,7 +51,7 @@ CLI::Option& add_option(CLI::App& command, const app::Option& option) {
 }
 
 void add_command(CLI::App& app, const Command& command) {
-  CLI::App& added = *app.add_subcommand(command.name, command.about);
+  CLI::App& added = *app.add_subcommand(command.options.command, command.about);
   std::map<std::string, CLI::Option*> all;
   for (const app::Option& option : command.options) {
     if (option.name.empty()) continue;
@@ -77,7 +77,7 @@ int fail(const std::string& message) {
 std::string unknown_command(const std::vector<Command>& commands, int argc, char** argv) {
   if (argc < 2 || *argv[1] == '-') return "";
   std::vector<std::string> names;
-  for (const Command& command : commands) names.push_back(command.name);
+  for (const Command& command : commands) names.push_back(command.options.command);
   if (std::ranges::find(names, argv[1]) != names.end()) return "";
   const auto near = input::nearest(argv[1], names);
   return fmt::format("there is no command '{}'; {}", argv[1],
@@ -114,7 +114,8 @@ int run_command_line(const std::vector<Command>& commands, const std::string& he
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
   const std::string name = app.get_subcommands().front()->get_name();
-  return std::ranges::find(commands, name, &Command::name)->carry_out();
+  const auto is_named = [&](const Command& command) { return command.options.command == name; };
+  return std::ranges::find_if(commands, is_named)->carry_out();
 }
 
 }  // namespace lcs::tools

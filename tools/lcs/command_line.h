@@ -13,7 +13,6 @@
 namespace lcs::tools {
 
 struct Command {
-  std::string name;
   std::string about;
   std::string help;  ///< below the options
   app::Options options;
@@ -23,10 +22,10 @@ struct Command {
 
 /// \param help below the options. \param carry_out gets options of which `options_of` is the list.
 template <class Chosen>
-Command command_of(const std::string& name, const std::string& about, const std::string& help,
+Command command_of(const std::string& about, const std::string& help,
                    ExitCode (*carry_out)(const Chosen&)) {
   const auto chosen = std::make_shared<Chosen>();
-  return {name, about, help, options_of(*chosen), [=] { return carry_out(*chosen); }};
+  return {about, help, options_of(*chosen), [=] { return carry_out(*chosen); }};
 }
 
 /// A request, and whether its command prints only errors and warnings.

@@ -64,8 +64,7 @@ app::Options options_of(CompareOptions& options) {
 }  // namespace
 
 Command compare_command() {
-  return command_of("compare",
-                    "List the figures that got better or worse between two suites, beyond noise",
+  return command_of("List the figures that got better or worse between two suites, beyond noise",
                     kHelp, &compare);
 }
 

@@ -1,7 +1,5 @@
 /// \file
 /// `lcs generate`: writes scenarios as sequences of pictures and truth for other tools.
-#include <fmt/format.h>
-
 #include "tools/app/generate.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
@@ -69,8 +67,7 @@ ExitCode generate(const GenerateOptions& options) {
 }  // namespace
 
 Command generate_command() {
-  return command_of("generate",
-                    "Simulate a scenario and write it as a sequence that other tools read", kHelp,
+  return command_of("Simulate a scenario and write it as a sequence that other tools read", kHelp,
                     &generate);
 }
 

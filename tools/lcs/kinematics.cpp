@@ -51,8 +51,7 @@ ExitCode kinematics(const KinematicsOptions& options) {
 }  // namespace
 
 Command kinematics_command() {
-  return command_of("kinematics",
-                    "Measure when the motion model holds for a camera and rover, against the truth",
+  return command_of("Measure when the motion model holds for a camera and rover, against the truth",
                     kHelp, &kinematics);
 }
 

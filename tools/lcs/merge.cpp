@@ -39,8 +39,7 @@ app::Options options_of(MergeOptions& options) {
 }  // namespace
 
 Command merge_command() {
-  return command_of("merge",
-                    "Join the parts of a suite that several machines made (lcs suite --shard)",
+  return command_of("Join the parts of a suite that several machines made (lcs suite --shard)",
                     kHelp, &merge);
 }
 

@@ -1,7 +1,5 @@
 /// \file
 /// `lcs replay`: runs a detector on a recording that options describe instead of a scenario file.
-#include <fmt/format.h>
-
 #include <string>
 
 #include "tools/app/replay.h"
@@ -68,8 +66,7 @@ app::Options options_of(ReplayOptions& options) {
 }  // namespace
 
 Command replay_command() {
-  return command_of("replay", "Run the LCS filter (or a comparator) on a recording", kHelp,
-                    &replay);
+  return command_of("Run the LCS filter (or a comparator) on a recording", kHelp, &replay);
 }
 
 }  // namespace lcs::tools

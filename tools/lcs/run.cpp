@@ -133,7 +133,6 @@ app::Options options_of(RunOptions& options) {
 
 Command run_command() {
   return command_of(
-      "run",
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
       "score it by the truth",
       kHelp, &run);

@@ -56,8 +56,7 @@ ExitCode score(const ScoreOptions& options) {
 }  // namespace
 
 Command score_command() {
-  return command_of("score",
-                    "Score a run by its files, or someone else's detector on the same frames",
+  return command_of("Score a run by its files, or someone else's detector on the same frames",
                     kHelp, &score);
 }
 

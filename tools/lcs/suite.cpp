@@ -108,8 +108,7 @@ app::Options options_of(SuiteOptions& options) {
 }  // namespace
 
 Command suite_command() {
-  return command_of("suite",
-                    "Run many scenarios with several seeds each, in parallel, and sum them up",
+  return command_of("Run many scenarios with several seeds each, in parallel, and sum them up",
                     kHelp, &suite);
 }
 

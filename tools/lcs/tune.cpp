@@ -54,7 +54,7 @@ ExitCode tune(const TuneOptions& options) {
 }  // namespace
 
 Command tune_command() {
-  return command_of("tune", "Learn the filter's numbers from recorded runs", kHelp, &tune);
+  return command_of("Learn the filter's numbers from recorded runs", kHelp, &tune);
 }
 
 }  // namespace lcs::tools

@@ -49,8 +49,7 @@ ExitCode world(const WorldOptions& options) {
 }  // namespace
 
 Command world_command() {
-  return command_of("world", "Draw a scenario and its scene from a seed, and write them", kHelp,
-                    &world);
+  return command_of("Draw a scenario and its scene from a seed, and write them", kHelp, &world);
 }
 
 }  // namespace lcs::tools

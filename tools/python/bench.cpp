@@ -1,11 +1,9 @@
 #include "tools/python/bench.h"
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <chrono>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -235,9 +233,10 @@ void define(py::module_& module, const Call& call, Request usual, const Do& work
             const std::string& about) {
   py::options texts;
   texts.disable_function_signatures();
-  const std::string text = signature_of(call, options_of(usual)) + "\n\n" + about;
+  const app::Options options = options_of(usual);
+  const std::string text = signature_of(call, options) + "\n\n" + about;
   module.def(
-      call.name.c_str(),
+      options.command.c_str(),
       [call, usual, work](const py::args& values, const py::kwargs& named) {
         Request request = usual;
         PythonCaller caller(read_arguments(call, options_of(request), values, named));
@@ -248,7 +247,7 @@ void define(py::module_& module, const Call& call, Request usual, const Do& work
 
 void bind_suites(py::module_& module) {
   define(
-      module, {.name = "suite", .takes_progress = true}, app::SuiteRequest{},
+      module, {.takes_progress = true}, app::SuiteRequest{},
       [](const app::SuiteRequest& request, PythonCaller& caller) {
         const app::SuiteMade made = carry_out([&] { return app::suite(request, caller, caller); });
         return dict_of(made, caller);
@@ -270,14 +269,14 @@ interval, of worlds; None where unknown) and count; table: the text that the pro
 comparison with the baseline, as of compare; messages.
 Finished runs are kept if it raises or is interrupted, and the same call goes on from there.)");
   define(
-      module, {.name = "merge"}, app::MergeRequest{},
+      module, {}, app::MergeRequest{},
       [](const app::MergeRequest& request, PythonCaller& caller) {
         const app::SuiteMade made = carry_out([&] { return app::merge(request, caller); });
         return dict_of(made, caller);
       },
       "Joins the folders of the parts of a suite (shard). Returns as suite.");
   define(
-      module, {.name = "compare", .positional = 2}, app::CompareRequest{},
+      module, {.positional = 2}, app::CompareRequest{},
       [](const app::CompareRequest& request, PythonCaller&) {
         const auto [old, now, comparison, verdict] = app::compare(request);
         return dict_of(comparison, verdict);
@@ -294,7 +293,7 @@ Raises Error for suites that cannot be read, or have nothing in common.)");
 
 void bind_worlds(py::module_& module) {
   define(
-      module, {.name = "world", .positional = 2}, app::WorldRequest{},
+      module, {.positional = 2}, app::WorldRequest{},
       [](const app::WorldRequest& request, PythonCaller& caller) {
         const app::WorldMade made = carry_out([&] { return app::world(request, caller); });
         return py::dict("file"_a = made.folder / (worlds::name_of(made.world) + ".yaml"),
@@ -324,7 +323,7 @@ chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.)");
 
 void bind_runs(py::module_& module) {
   define(
-      module, {.name = "run", .takes_progress = true}, app::RunRequest{.video = false},
+      module, {.takes_progress = true}, app::RunRequest{.video = false},
       [](const app::RunRequest& request, PythonCaller& caller) {
         const app::RunMade made = carry_out([&] { return app::run(request, caller); });
         return dict_of(made, caller);
@@ -345,7 +344,7 @@ Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, 
       },
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
   define(
-      module, {.name = "replay", .takes_progress = true}, app::ReplayRequest{.video = false},
+      module, {.takes_progress = true}, app::ReplayRequest{.video = false},
       [](const app::ReplayRequest& request, PythonCaller& caller) {
         const app::RunMade made = carry_out([&] { return app::replay(request, caller); });
         return dict_of(made, caller);
@@ -356,7 +355,7 @@ path: a folder, video or ROS bag. recording: keys of a scenario's recording, as 
 "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
 pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.)");
   define(
-      module, {.name = "generate", .takes_progress = true}, app::GenerateRequest{},
+      module, {.takes_progress = true}, app::GenerateRequest{},
       [](const app::GenerateRequest& request, PythonCaller& caller) {
         if (request.is_of_many()) {
           const app::SequencesMade made =
@@ -380,7 +379,7 @@ same call goes on after it was interrupted.)");
 
 void bind_studies(py::module_& module) {
   define(
-      module, {.name = "tune", .takes_progress = true}, app::TuneRequest{},
+      module, {.takes_progress = true}, app::TuneRequest{},
       [](const app::TuneRequest& request, PythonCaller& caller) {
         const app::TuneMade made = carry_out([&] { return app::tune(request, caller); });
         py::list stated;
@@ -400,7 +399,7 @@ Returns a dict: folder; before, after: values by key; stated: for each kind of s
 and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
 The same call goes on after it was interrupted.)");
   define(
-      module, {.name = "kinematics", .takes_progress = true}, app::KinematicsRequest{},
+      module, {.takes_progress = true}, app::KinematicsRequest{},
       [](const app::KinematicsRequest& request, PythonCaller& caller) {
         const app::KinematicsMade made =
             carry_out([&] { return app::kinematics(request, caller); });

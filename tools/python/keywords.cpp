@@ -32,21 +32,21 @@ constexpr const char* kTypes[] = {
     "collections.abc.Mapping[str, object]"};
 
 std::string type_of(const Option& option) {
-  const std::string type = kTypes[static_cast<std::size_t>(option.kind())];
-  if (option.is_optional()) return fmt::format("Optional[{}]", type);
-  const bool may_be_none = option.kind() >= Kind::paths && !option.more.is_required;
+  const std::string type = kTypes[static_cast<std::size_t>(option.kind)];
+  if (option.is_optional) return fmt::format("Optional[{}]", type);
+  const bool may_be_none = option.kind >= Kind::paths && !option.more.is_required;
   return type + (may_be_none ? " | None" : "");
 }
 
 /// The argument that leaves the option at its default.
 py::object usual_of(const Option& option) {
-  if (option.is_optional() || option.kind() >= Kind::paths) return py::none();
+  if (option.is_optional || option.kind >= Kind::paths) return py::none();
   const app::Texts words = option.words();
-  if (option.kind() == Kind::list) return py::cast(words);
+  if (option.kind == Kind::list) return py::cast(words);
   const py::str text(words.empty() ? "" : words.front());
-  if (option.kind() == Kind::flag) return py::bool_(words.front() == "true");
-  if (option.kind() == Kind::whole) return py::int_(text);
-  if (option.kind() == Kind::number) return py::float_(text);
+  if (option.kind == Kind::flag) return py::bool_(words.front() == "true");
+  if (option.kind == Kind::whole) return py::int_(text);
+  if (option.kind == Kind::number) return py::float_(text);
   return text;
 }
 
@@ -56,7 +56,7 @@ std::string path_of(const py::handle& path) {
 
 /// The words that `Option::read` takes.
 app::Texts words_of(const Option& option, const py::object& value) {
-  switch (option.kind()) {
+  switch (option.kind) {
     case Kind::flag:
       return {py::cast<bool>(value) ? "true" : "false"};
     case Kind::text:
@@ -81,9 +81,9 @@ app::Texts words_of(const Option& option, const py::object& value) {
 }
 
 /// Sets the option. \throws py::type_error that names the argument, as `Option::read`.
-void read(const Call& call, const Option& option, const py::object& value) {
+void read(const std::string& function, const Option& option, const py::object& value) {
   const auto wrong = [&](const std::string& why) {
-    return py::type_error(fmt::format("{}(): {} is {}: {}", call.name, option.keyword(),
+    return py::type_error(fmt::format("{}(): {} is {}: {}", function, option.keyword(),
                                       py::cast<std::string>(py::repr(value)), why));
   };
   app::Texts words;
@@ -112,7 +112,7 @@ std::string signature_of(const Call& call, const app::Options& options) {
     all.push_back(one);
   }
   if (call.takes_progress) all.push_back(fmt::format("{}: {} = None", kProgress, kProgressType));
-  return fmt::format("{}({}) -> dict", call.name, fmt::join(all, ", "));
+  return fmt::format("{}({}) -> dict", options.command, fmt::join(all, ", "));
 }
 
 py::object read_arguments(const Call& call, const app::Options& options, const py::args& values,
@@ -126,19 +126,20 @@ py::object read_arguments(const Call& call, const app::Options& options, const p
   if (values.size() > call.positional) {
     throw py::type_error(
         fmt::format("{}() takes {} arguments without a name, not {}; name the others, as {}=...",
-                    call.name, call.positional, values.size(), keywords.at(call.positional)));
+                    options.command, call.positional, values.size(), keywords.at(call.positional)));
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (given.contains(keywords[i])) {
-      throw py::type_error(fmt::format("{}(): {} is given twice", call.name, keywords[i]));
+      throw py::type_error(fmt::format("{}(): {} is given twice", options.command, keywords[i]));
     }
     given[keywords[i].c_str()] = values[i];
   }
   for (const auto& [name, value] : given) {
     const auto keyword = py::cast<std::string>(name);
     if (std::ranges::count(keywords, keyword) > 0) continue;
-    throw py::type_error(fmt::format("{}() has no argument '{}'; the nearest is '{}'", call.name,
-                                     keyword, input::nearest_first(keyword, keywords).front()));
+    throw py::type_error(fmt::format("{}() has no argument '{}'; the nearest is '{}'",
+                                     options.command, keyword,
+                                     input::nearest_first(keyword, keywords).front()));
   }
   std::map<std::string, std::string> set;  // keywords by the options' names
   for (const Option& option : options) {
@@ -146,7 +147,7 @@ py::object read_arguments(const Call& call, const app::Options& options, const p
     if (keyword.empty()) continue;
     if (!given.contains(keyword)) {
       if (!option.more.is_required) continue;
-      throw py::type_error(fmt::format("{}(): {} is missing", call.name, keyword));
+      throw py::type_error(fmt::format("{}(): {} is missing", options.command, keyword));
     }
     const py::object value = given[keyword.c_str()];
     if (!option.more.is_required && value.equal(usual_of(option))) continue;
@@ -154,7 +155,7 @@ py::object read_arguments(const Call& call, const app::Options& options, const p
       throw py::value_error(
           fmt::format("there are {} and {}; give one of them", other->second, keyword));
     }
-    read(call, option, value);
+    read(options.command, option, value);
     if (!option.name.empty()) set.emplace(option.name, keyword);
   }
   return given.attr("get")(kProgress, py::none());

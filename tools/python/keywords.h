@@ -16,7 +16,6 @@ namespace py = pybind11;
 
 /// How a function is called.
 struct Call {
-  std::string name;
   std::size_t positional = 1;  ///< so many of the options may be given without their names
   bool takes_progress = false;
 };
