@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "filter/kinematics/geometry.h"
 #include "filter/learnt.h"
@@ -71,15 +70,13 @@ std::string range_text(const Entry& entry) {
 }
 
 bool is_learnt(std::string_view key) {
-  return std::any_of(kLearnt.begin(), kLearnt.end(),
-                     [&](const auto& learnt) { return learnt.first == key; });
+  return std::ranges::any_of(kLearnt, [&](const auto& learnt) { return learnt.first == key; });
 }
 
 }  // namespace
 
 void set(std::span<const Entry> entries, std::string_view key, std::string_view value) {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key; });
+  const auto found = std::ranges::find(entries, key, &Entry::key);
   if (found == entries.end()) {
     throw std::invalid_argument("the filter has no parameter '" + std::string(key) + "'");
   }
@@ -94,7 +91,7 @@ void set(std::span<const Entry> entries, std::string_view key, std::string_view 
     return;
   }
   if (const auto* rotation = std::get_if<RotationModel*>(&entry.value)) {
-    const auto* word = std::find(kRotations.begin(), kRotations.end(), value);
+    const auto* word = std::ranges::find(kRotations, value);
     if (word == kRotations.end()) refuse("one of " + joined(kRotations));
     **rotation = static_cast<RotationModel>(word - kRotations.begin());
     return;

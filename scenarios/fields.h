@@ -121,8 +121,8 @@ void fields(Ego& ego, Visit&& visit) {
          "none"},
         phases);
   visit({"waypoints",
-         "`[[time, x, y], ...]`, two or more: places and the times to be there, which increase. "
-         "In place of all other keys but `drive`, which is holonomic",
+         "`[[time, x, y], ...]`, two or more: places and the times to be there, which increase. In "
+         "place of all other keys but `drive`, which is holonomic",
          "none"},
         waypoints);
   visit.in_place_of("waypoints", {"start", "heading", "speed", "acceleration", "direction",
@@ -194,16 +194,14 @@ void fields(Camera& camera, Visit&& visit) {
          "calibration that the filter is given",
          "none"},
         told);
-  visit(
-      {"time_offset",
-       "Kalibr's `timeshift_cam_imu`: a picture with the stamp t shows the time t + `time_offset` "
-       "of the IMU's clock"},
-      time_offset_s, kTimeOffset);
-  visit(
-      {"rolling_shutter",
-       "time from the first row to the end of the last row; the first row is of the frame's time, "
-       "and row y of h comes y / h of this later; 0: all rows at once"},
-      rolling_shutter_s, kShutter);
+  visit({"time_offset",
+         "Kalibr's `timeshift_cam_imu`: a picture with the stamp t shows the time t + "
+         "`time_offset` of the IMU's clock"},
+        time_offset_s, kTimeOffset);
+  visit({"rolling_shutter",
+         "time from the first row to the end of the last row; the first row is of the frame's "
+         "time, and row y of h comes y / h of this later; 0: all rows at once"},
+        rolling_shutter_s, kShutter);
   visit({"exposure",
          "each row is the mean of the light of this long, half of it before the row's time; 0: an "
          "instant. What moves is smeared; `image.exposure` alone sets the brightness"},
@@ -462,8 +460,7 @@ void fields(Actor& actor, Visit&& visit) {
   if (!body) added = shape;
   visit({"shape",
          "adds one to the scene: `box`, `cylinder`, `pedestrian` (rigid), `walker` (a pedestrian "
-         "whose limbs move), `car`, or one's own "
-         "(scenes/README.md): a path relative to this file",
+         "whose limbs move), `car`, or one's own (scenes/README.md): a path relative to this file",
          kOneOfThese},
         added, OwnFileOr{{"box", "cylinder", "pedestrian", "car", "walker"}, shape_file});
   if (added) shape = *added;
@@ -479,16 +476,14 @@ void fields(Actor& actor, Visit&& visit) {
          "`windows` and others of `sim/scene/texture.cpp`), or a `.png` file, relative to this one",
          "the shape's own"},
         texture, StyleOrPicture{});
-  visit(
-      {"pose",
-       "of a shape with joints: they stay as in this keyframe of its file, or at `zero`; or it is "
-       "`walking` (scenes/README.md)",
-       "it has no joints; a walker is `walking`"},
-      pose);
+  visit({"pose",
+         "of a shape with joints: they stay as in this keyframe of its file, or at `zero`; or it "
+         "is `walking` (scenes/README.md)",
+         "it has no joints; a walker is `walking`"},
+        pose);
   visit({"class",
          "in COCO and MOT: a name of MOTChallenge (`pedestrian`, `car`, `bicycle`, `motorbike`, "
-         "...), "
-         "or any other",
+         "...), or any other",
          "the shape's; `object` of one's own shape and of a body"},
         kind);
   visit({"trajectory", "how the actor moves", kRequired}, trajectory);
@@ -542,12 +537,12 @@ void fields(Recorded& recorded, Visit&& visit) {
          "by the header, or by the rates that the recording states"},
         time_unit, Words{{"s", "ms", "us", "ns"}});
   visit({"every", "only every n-th picture is a frame"}, every, Whole{1, 10000});
-  visit({"poses",
-         "how the camera moved: lines of TUM (`t x y z qx qy qz qw`), of KITTI odometry (12 "
-         "numbers, line k of picture k) or others (tools/replay/README.md); x right, y down, z "
-         "ahead",
-         "the layout's own"},
-        poses, File{});
+  visit(
+      {"poses",
+       "how the camera moved: lines of TUM (`t x y z qx qy qz qw`), of KITTI odometry (12 numbers, "
+       "line k of picture k) or others (tools/replay/README.md); x right, y down, z ahead",
+       "the layout's own"},
+      poses, File{});
   visit({"odometry",
          "beside `imu`: velocities by the wheels, and yaw rates if there are some, CSV as `lcs "
          "generate` writes them",

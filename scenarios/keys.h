@@ -1,8 +1,12 @@
 /// \file
-/// Documentation of the keys of a scenario file, and its JSON Schema, generated from `fields.h`.
+/// Documentation of the keys of a scenario file, its JSON Schema, and the keys of a scenario: all
+/// by `fields.h`.
 #pragma once
 
 #include <string>
+
+#include "scenarios/scenario.h"
+#include "tools/input/document.h"
 
 namespace lcs::scenario {
 
@@ -13,5 +17,10 @@ std::string keys_text();
 /// A JSON Schema (draft-07) of scenario files, with every key and the kind of its value. The loader
 /// also checks ranges of numbers with a unit, the order of times, and that files exist.
 std::string schema_text();
+
+/// The keys of a scenario that differ from their defaults, for `yaml_text`; the inverse of
+/// `load.h`. Numbers have 12 digits. Paths are unchanged; a reader resolves relative paths against
+/// the file's folder.
+input::Value document_of(const Scenario& scenario);
 
 }  // namespace lcs::scenario

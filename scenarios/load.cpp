@@ -9,7 +9,6 @@
 
 #include "scenarios/fields.h"
 #include "scenarios/scenes.h"
-#include "tools/input/document.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/reader.h"
 
@@ -44,11 +43,10 @@ void complete(input::Reader& reader, Ego& ego) {
   const auto elsewhere = std::ranges::find_if(
       ego.waypoints, [&](const Waypoint& point) { return point.position_m != ego.start_m; });
   if (elsewhere == ego.waypoints.end()) {
-    throw input::Error(
-        reader.find("waypoints")->where,
-        reader.path_of("waypoints") +
-            " lead nowhere: all are one place; make one of them another, or give start "
-            "and heading for a rover that stands");
+    throw input::Error(reader.find("waypoints")->where,
+                       reader.path_of("waypoints") +
+                           " lead nowhere: all are one place; make one of them another, or give "
+                           "start and heading for a rover that stands");
   }
   const Eigen::Vector2d way = elsewhere->position_m - ego.start_m;
   ego.heading_rad = std::atan2(way.y(), way.x());
@@ -314,9 +312,10 @@ void read_value(const Item& item, Plain, std::vector<PathPose>& path) {
     path.push_back(pose);
   }
   if (path.size() < 2) {
-    throw input::Error(item.value.where, item.path +
-                                             " has fewer than two poses; give two or more [time, "
-                                             "x, y, z, roll, pitch, yaw]");
+    throw input::Error(
+        item.value.where,
+        item.path +
+            " has fewer than two poses; give two or more [time, x, y, z, roll, pitch, yaw]");
   }
 }
 
@@ -340,7 +339,7 @@ void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
 }
 
 bool is_name(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) {
+  return std::ranges::all_of(text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
 }
@@ -356,9 +355,10 @@ void read_value(const Item& item, GeomGroups, std::vector<int>& groups) {
     groups.push_back(group);
   }
   if (groups.empty()) {
-    throw input::Error(item.value.where, item.path +
-                                             " is an empty list, and nothing would be "
-                                             "drawn; give one or more, or remove the key");
+    throw input::Error(
+        item.value.where,
+        item.path +
+            " is an empty list, and nothing would be drawn; give one or more, or remove the key");
   }
 }
 
@@ -417,7 +417,7 @@ constexpr std::array<std::string_view, 5> not_to_be_swept = {"sweep", "groups", 
 
 SweptKey read_key(const input::Entry& entry) {
   const std::string path = "sweep." + entry.key;
-  if (std::count(not_to_be_swept.begin(), not_to_be_swept.end(), entry.key) > 0) {
+  if (std::ranges::count(not_to_be_swept, entry.key) > 0) {
     throw input::Error(
         entry.where,
         path + " cannot be swept; " +
@@ -431,7 +431,7 @@ SweptKey read_key(const input::Entry& entry) {
     }
     const std::string text = input::line_of(value);
     const auto same = [&](const SweptKey::Value& other) { return other.text == text; };
-    if (std::any_of(swept.values.begin(), swept.values.end(), same)) {
+    if (std::ranges::any_of(swept.values, same)) {
       throw input::Error(value.where, path + " has '" + text + "' twice; remove one");
     }
     swept.values.push_back({text, value.where});
@@ -513,9 +513,10 @@ void complete(input::Reader& reader, Camera& camera) {
   }
   const Eigen::Matrix3d R_BC = T.topLeftCorner<3, 3>();
   if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || !is_rotation(R_BC)) {
-    throw input::Error(value->where, reader.path_of("T_BC") +
-                                         " is no rigid transform; give four rows: a rotation "
-                                         "beside a translation, and 0 0 0 1");
+    throw input::Error(
+        value->where,
+        reader.path_of("T_BC") +
+            " is no rigid transform; give four rows: a rotation beside a translation, and 0 0 0 1");
   }
   camera.mount_position_m = T.topRightCorner<3, 1>();
   Eigen::Matrix3d R;  // of a camera's forward, left and up
@@ -529,9 +530,9 @@ void complete(input::Reader& reader, Camera& camera) {
 
 void require_events(input::Reader& reader, const Scenario& scenario) {
   if (scenario.corner_source == CornerSource::events && !scenario.events && !scenario.recording) {
-    throw input::Error(reader.find("corners")->where,
-                       "corners.from is 'events', and the camera has no event pixels; add "
-                       "'events: {}'");
+    throw input::Error(
+        reader.find("corners")->where,
+        "corners.from is 'events', and the camera has no event pixels; add 'events: {}'");
   }
   if (scenario.events && scenario.image.rain) {
     throw input::Error(scenario.events->source,
@@ -547,9 +548,8 @@ void require_one_exposure(input::Reader& reader, const Scenario& scenario) {
   if (!is_smeared || !control || !control->exposure_s) return;
   throw input::Error(
       reader.find("image")->where,
-      "image.auto_exposure.exposure changes the exposure, and camera.exposure smears "
-      "for a constant time; remove one of them (without the first the gain alone "
-      "changes)");
+      "image.auto_exposure.exposure changes the exposure, and camera.exposure smears for a "
+      "constant time; remove one of them (without the first the gain alone changes)");
 }
 
 /// Chooses the camera of the detectors.
@@ -559,10 +559,10 @@ void complete(input::Reader& reader, Scenario& scenario) {
   if (scenario.cameras.empty() && scenario.filter_camera.empty()) return;
   const auto found = std::ranges::find(scenario.cameras, scenario.filter_camera, &RigCamera::name);
   if (found == scenario.cameras.end() && !scenario.filter_camera.empty()) {
-    throw input::Error(reader.find("filter_camera")->where,
-                       "filter_camera is '" + scenario.filter_camera +
-                           "', and no camera of cameras has that name; give one that has, or "
-                           "remove it");
+    throw input::Error(
+        reader.find("filter_camera")->where,
+        "filter_camera is '" + scenario.filter_camera +
+            "', and no camera of cameras has that name; give one that has, or remove it");
   }
   const bool is_first = scenario.filter_camera.empty();
   scenario = seen_by(std::move(scenario),
@@ -664,13 +664,11 @@ void refuse_foreign_keys(const Item& item, const input::Reader& reader) {
     const auto* const found = std::ranges::find(kForeignKeys, std::string_view(entry.key),
                                                 &decltype(kForeignKeys)::value_type::first);
     if (found == kForeignKeys.end()) continue;
-    throw input::Error(
-        entry.where,
-        "unknown key '" + entry.key + "'; " +
-            (found->second.empty()
-                 ? "the simulator has none of it (scenarios/README.md, 'What the simulator has, "
-                   "and has not'); remove it"
-                 : std::string(found->second)));
+    throw input::Error(entry.where, "unknown key '" + entry.key + "'; " +
+                                        (found->second.empty()
+                                             ? "the simulator has none of it (scenarios/README.md, "
+                                               "'What the simulator has, and has not'); remove it"
+                                             : std::string(found->second)));
   }
 }
 
@@ -717,7 +715,7 @@ void check_name(const input::Entry& entry, const std::string& owner) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  if (std::all_of(entry.key.begin(), entry.key.end(), is_name_char)) return;
+  if (std::ranges::all_of(entry.key, is_name_char)) return;
   throw input::Error(entry.where,
                      owner + " name '" + entry.key +
                          "' has other characters than letters, digits, '_' and '-'; rename it");
@@ -768,7 +766,7 @@ std::map<std::string, std::string> world_of(const input::Value& root) {
                                                            "filter",  "criteria", "sweep"};
   input::Value world(input::Value::Kind::map, root.where);
   for (const input::Entry& entry : root.entries) {
-    if (std::find(kNotOfTheWorld.begin(), kNotOfTheWorld.end(), entry.key) == kNotOfTheWorld.end())
+    if (std::ranges::find(kNotOfTheWorld, entry.key) == kNotOfTheWorld.end())
       world.entries.push_back(entry);
   }
   return input::flattened(world);

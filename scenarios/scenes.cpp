@@ -5,7 +5,6 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include "scenarios/shipped.h"
 #include "tools/input/reader.h"
@@ -23,7 +22,7 @@ std::string scenes_in(const fs::path& folder) {
   for (const auto& file : fs::directory_iterator(folder, error)) {
     if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? " (it has " : ", ") + name;
   return text.empty() ? text : text + ")";

@@ -1,7 +1,6 @@
 #include "scenarios/shipped.h"
 
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <utility>
 

@@ -1,5 +1,5 @@
 /// \file
-/// Converts values of a scenario to YAML, by type and form. `save.h` converts a whole scenario.
+/// Converts values of a scenario to YAML, by type and form. `document_of` (keys.h) converts a whole scenario.
 #pragma once
 
 #include <algorithm>

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <opencv2/core.hpp>
-#include <optional>
 
 #include "sim/camera/linear_light.h"
 #include "sim/drive.h"
@@ -45,9 +42,9 @@ bool casts_shadows(const scenario::Scenario& s, const World& world) {
     if (m.light_active[light] && m.light_castshadow[light]) return true;
   }
   throw input::Error({s.file.string(), 0},
-                     fmt::format("image.shadows is true, and no light of {} casts any; give one of "
-                                 "its lights castshadow=\"true\", or remove the key",
-                                 s.scene.string()));
+                     "image.shadows is true, and no light of {} casts any; give one of its lights "
+                     "castshadow=\"true\", or remove the key",
+                     s.scene.string());
 }
 
 Photographer photographer_of(const scenario::Scenario& s, const Optics& camera) {
@@ -226,11 +223,10 @@ void Observer::sense_events(const FrameState& frame, Observation& o) {
     const EventSampling sampling = sample_events(parts_px);
     chosen = sampling.cells;
     if (sampling.most_shift_px > kMostEventShift_px) {
-      world_.warnings().add(
-          Warning::coarse_events,
-          fmt::format("up to frame {} the picture shifts by {:.1f} px between two of the {} "
-                      "instants at which events are sampled",
-                      o.index, sampling.most_shift_px, chosen.size()));
+      world_.warnings().add(Warning::coarse_events,
+                            fmt::format("up to frame {} the picture shifts by {:.1f} px between "
+                                        "two of the {} instants at which events are sampled",
+                                        o.index, sampling.most_shift_px, chosen.size()));
     }
   }
   const Stage present = world_.stage();
@@ -256,11 +252,10 @@ void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
   const double shift = shift_px(frame, o.truth.depth_m, o.geom);
   const int n = Shutter::drawings_for(shift);
   if (shift > n * Shutter::kMostShift_px) {
-    world_.warnings().add(
-        Warning::coarse_shutter,
-        fmt::format("frame {} shifts by {:.0f} px during readout and exposure, and is drawn at {} "
-                    "instants, {:.2f} px apart",
-                    o.index, shift, n, shift / n));
+    world_.warnings().add(Warning::coarse_shutter,
+                          fmt::format("frame {} shifts by {:.0f} px during readout and exposure, "
+                                      "and is drawn at {} instants, {:.2f} px apart",
+                                      o.index, shift, n, shift / n));
   }
   const bool has_shadows = scenario_.image.shadows;
   cv::Mat3f light;

@@ -2,7 +2,6 @@
 /// A world with its camera: yields the observations of `Simulation`, and gives access to the world.
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <set>

@@ -23,11 +23,13 @@ inline Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eige
 }
 
 /// Roll, pitch and yaw about fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll).
+inline Eigen::Quaterniond quaternion_of_rpy(const Eigen::Vector3d& rpy_rad) {
+  return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
+}
 inline Eigen::Matrix3d rotation_of_rpy(const Eigen::Vector3d& rpy_rad) {
-  return (Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
+  return quaternion_of_rpy(rpy_rad).toRotationMatrix();
 }
 
 }  // namespace lcs::sim

@@ -2,9 +2,6 @@
 
 #include <sys/mman.h>
 
-#include <memory>
-#include <string>
-
 #include "sim/camera/gl_context.h"
 #include "sim/observer.h"
 #include "sim/scene/trial.h"
@@ -13,9 +10,9 @@ namespace lcs::sim {
 
 const scenario::Scenario& require_scene(const scenario::Scenario& scenario) {
   if (!scenario.recording) return scenario;
-  throw input::Error(scenario.recording->source,
-                     "these are recorded frames, and there is no world to simulate; give a "
-                     "scenario with a scene");
+  throw input::Error(
+      scenario.recording->source,
+      "these are recorded frames, and there is no world to simulate; give a scenario with a scene");
 }
 
 struct Simulation::Impl : Observer {

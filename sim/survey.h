@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>

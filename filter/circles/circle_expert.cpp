@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "filter/circles/mean_circle.h"
-#include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
@@ -39,15 +38,13 @@ void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
   make_room(shares_, edges.size());
   for (std::size_t g = 0; g < found_.size(); ++g) {
     for (const int i : groups_.edges(found_[g])) {
-      const auto was = std::lower_bound(before.begin(), before.end(), edges[i].id,
-                                        [](const Member& m, Id id) { return m.edge < id; });
+      const auto was = std::ranges::lower_bound(before, edges[i].id, {}, &Member::edge);
       if (was == before.end() || was->edge != edges[i].id) continue;
       shares_.push_back({1, was->circle, g});
     }
   }
   const auto place = [](const Share& s) { return std::tuple(s.circle, s.group); };
-  std::sort(shares_.begin(), shares_.end(),
-            [&](const Share& a, const Share& b) { return place(a) < place(b); });
+  std::ranges::sort(shares_, [&](const Share& a, const Share& b) { return place(a) < place(b); });
   std::size_t last = 0;
   for (std::size_t s = 1; s < shares_.size(); ++s) {
     if (place(shares_[s]) == place(shares_[last])) {
@@ -57,7 +54,7 @@ void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
     }
   }
   if (!shares_.empty()) shares_.resize(last + 1);
-  std::sort(shares_.begin(), shares_.end(), [](const Share& a, const Share& b) {
+  std::ranges::sort(shares_, [](const Share& a, const Share& b) {
     return std::tuple(-a.edges, a.circle, a.group) < std::tuple(-b.edges, b.circle, b.group);
   });
   refill(circle_of_group_, found_.size(), -1);

@@ -58,8 +58,7 @@ int ArcStar::newest_arc(const Circle<N>& circle, int x, int y, bool is_on, int l
   for (std::size_t i = 0; i < N; ++i) {
     t_ns[i] = at(x + circle[i][0], y + circle[i][1]).surface_ns[is_on];
   }
-  const auto newest =
-      static_cast<std::size_t>(std::max_element(t_ns.begin(), t_ns.end()) - t_ns.begin());
+  const auto newest = static_cast<std::size_t>(std::ranges::max_element(t_ns) - t_ns.begin());
   // the neighbours at both ends of the arc, and the oldest that each side has passed so far
   std::size_t right = (newest + 1) % N, left = (newest + N - 1) % N;
   std::int64_t oldest_ns = t_ns[newest], right_oldest_ns = t_ns[right], left_oldest_ns = t_ns[left];
@@ -100,7 +99,7 @@ bool ArcStar::add(int x, int y, std::int64_t t_ns, bool is_on) {
 cv::Mat1b ArcStar::picture() const {
   constexpr int kNeutral = 128, kMost = 127;
   cv::Mat1b picture(height_px_, width_px_);
-  std::transform(pixels_.begin(), pixels_.end(), picture.begin(), [&](const Pixel& pixel) {
+  std::ranges::transform(pixels_, picture.begin(), [&](const Pixel& pixel) {
     const bool is_on = pixel.surface_ns[1] > pixel.surface_ns[0];
     const std::int64_t left_ns = kFade_ns - (now_ns_ - pixel.surface_ns[is_on]);
     const auto grey = static_cast<int>(kMost * std::max<std::int64_t>(left_ns, 0) / kFade_ns);

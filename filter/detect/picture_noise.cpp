@@ -46,7 +46,7 @@ Jumps jumps(const cv::Mat1b& grey) {
 /// Mean square jump at block borders, less the largest elsewhere. The grid may start at any row, as
 /// the picture may be cropped. Adjacent rows share the border's pixels and are left out.
 double excess(const Jumps& jumps) {
-  const auto most = static_cast<int>(std::max_element(jumps.begin(), jumps.end()) - jumps.begin());
+  const auto most = static_cast<int>(std::ranges::max_element(jumps) - jumps.begin());
   double other = 0;
   for (int beside = 2; beside <= kGrid_px - 2; ++beside) {
     other = std::max(other, jumps[static_cast<std::size_t>((most + beside) % kGrid_px)]);
@@ -96,12 +96,12 @@ std::optional<double> noise_levels(const cv::Mat1b& grey) {
     }
   }
   if (blocks.size() < kFewestBlocks) return std::nullopt;
-  std::sort(blocks.begin(), blocks.end());
+  std::ranges::sort(blocks);
   std::vector<double> flat;
   for (std::size_t i = 0; i < std::max(kFewestBlocks, blocks.size() / 10); ++i) {
     flat.push_back(blocks[i].second);
   }
-  std::sort(flat.begin(), flat.end());
+  std::ranges::sort(flat);
   const double median = 0.5 * (flat[(flat.size() - 1) / 2] + flat[flat.size() / 2]);
   // The operator's weights have norm 6; sqrt(pi / 2) converts a mean absolute value to a deviation.
   return std::sqrt(std::numbers::pi / 2) / 6 * median;

@@ -1,12 +1,10 @@
 #include "filter/edges/association.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
-#include "filter/vectors/vectors.h"
 
 namespace lcs {
 namespace {
@@ -251,7 +249,7 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
     const Match best = best_pair(c, around.of(c), pairs);
     if (best.track >= 0) matches_.push_back(best);
   }
-  std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
+  std::ranges::sort(matches_, [](const Match& a, const Match& b) {
     return a.weight > b.weight || (a.weight == b.weight && a.corner < b.corner);
   });
   refill(taken_, predicted.size());

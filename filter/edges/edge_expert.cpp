@@ -270,7 +270,7 @@ void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
   }
   for (std::vector<Edge>* kind : {&edges.normal, &edges.rebel}) {
     delete_lost(*kind, camera_, trust_);
-    std::sort(kind->begin(), kind->end(), [](const Edge& a, const Edge& b) { return a.id < b.id; });
+    std::ranges::sort(*kind, {}, &Edge::id);
   }
 }
 

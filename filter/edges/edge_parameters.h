@@ -3,10 +3,20 @@
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
+#include <string_view>
 
-#include "filter/learnt_value.h"
+#include "filter/learnt.h"
 
 namespace lcs {
+
+/// The value of a key of `learnt.h`. A missing key is a compile-time error.
+consteval double learnt(std::string_view key) {
+  for (const auto& [name, value] : kLearnt) {
+    if (key == name) return value;
+  }
+  throw std::invalid_argument("learnt.h lacks the key");
+}
 
 struct EdgeParameters {
   /// px: least standard deviation of a corner's place on each axis (whole pixels, FAST). The filter

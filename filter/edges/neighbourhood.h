@@ -32,8 +32,7 @@ class Neighbourhood {
       if (place > 0) radius_px = 1.2 * reach_px(grid_.index_at(place - 1));
       std::size_t near = grid_.find_within(x, radius_px, near_);
       for (; near <= count_; near = grid_.find_within(x, radius_px, near_)) radius_px *= 1.4;
-      const auto self =
-          std::find(near_.places.begin(), near_.places.end(), static_cast<int>(place));
+      const auto self = std::ranges::find(near_.places, static_cast<int>(place));
       near_.distance2_px2[static_cast<std::size_t>(self - near_.places.begin())] = -1;  // the least
       loops().ranks(near_.distance2_px2.data(), near, ranks_.data());
       Neighbour* const nearest = &nearest_[static_cast<std::size_t>(here) * count_];

@@ -1,4 +1,4 @@
-#include "filter/edges/own_motion.h"
+#include "filter/edges/track.h"
 
 #include "filter/edges/gauss.h"
 

@@ -1,15 +1,31 @@
 #include "filter/kinematics/motion_field.h"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "filter/kinematics/camera.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/kinematics/rotation_models.h"
 
 namespace lcs {
 namespace {
+
+/// First-order displacement of an image point by a small rotation of the camera: the motion field
+/// of a rotation, integrated once; px.
+/// \param x px, from the principal point. \param w rad, about the camera's axes.
+/// \param f focal length, px.
+inline Vec2 first_order_rotation(const Vec2& x, const Eigen::Vector3d& w, double f) {
+  return {x.x() * x.y() / f * w.x() - (f + x.x() * x.x() / f) * w.y() + x.y() * w.z(),
+          (f + x.y() * x.y() / f) * w.x() - x.x() * x.y() / f * w.y() - x.x() * w.z()};
+}
+
+/// The same by the paper's first equation as printed, with its errors.
+inline Vec2 printed_rotation(const Vec2& x, const Eigen::Vector3d& w, double f) {
+  return {f * w.y() + x.y() * w.z() + (x.x() * x.y() * w.x() - x.x() * x.x() * w.y()) / f,
+          f * w.x() + x.x() * w.z() + (x.x() * x.y() * w.y() - x.y() * x.y() * w.y()) / f};
+}
 
 /// Coordinates beyond the range of int count as infinite.
 const double kInfinity_px = std::numeric_limits<int>::max();

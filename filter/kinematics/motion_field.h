@@ -17,7 +17,7 @@
 
 namespace lcs {
 
-/// Model that rotates stored image locations with the camera (`rotation_models.h`).
+/// Model that rotates stored image locations with the camera (`motion_field.cpp`).
 enum class RotationModel {
   first_order,  ///< the motion field of the rotation, integrated once: for small rotations
   homography,   ///< x' ~ K dR K^-1 x, exact

@@ -13,8 +13,8 @@ bool contains(const IgnoreRegion& region, const Vec2& x) {
 }
 
 bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
-  return std::any_of(regions.begin(), regions.end(),
-                     [&](const IgnoreRegion& region) { return contains(region, x); });
+  return std::ranges::any_of(regions,
+                             [&](const IgnoreRegion& region) { return contains(region, x); });
 }
 
 const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
@@ -49,7 +49,7 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
     std::nth_element(entries_.begin(), end, entries_.end(), nearer);
     entries_.erase(end, entries_.end());
   }
-  std::sort(entries_.begin(), entries_.end(), nearer);
+  std::ranges::sort(entries_, nearer);
 
   chi_.locations.clear();
   chi_.sources.clear();
@@ -70,7 +70,7 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
 
 void count_rejected(const Chi& chi, Diagnostics& diagnostics) {
   const auto count = [&](Fault fault, Reason reason) {
-    diagnostics.add(fault, std::count(chi.rejected.begin(), chi.rejected.end(), reason));
+    diagnostics.add(fault, std::ranges::count(chi.rejected, reason));
   };
   count(Fault::corner_not_finite, Reason::not_finite);
   count(Fault::corner_outside, Reason::outside);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "filter/kinematics/camera.h"

@@ -68,7 +68,7 @@ void PaperCircles::group(const std::vector<Edge>& edges, const MotionField& fiel
   const bool rebels = !edges.empty() && edges.front().rebel;
   const double reach = rebels ? parameters_.reach_r : parameters_.reach_n;
   grid_.build(points_, reach);
-  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+  std::ranges::sort(seeds_, [](const Seed& a, const Seed& b) {
     return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
   });
   grouped_.clear();
@@ -152,7 +152,7 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
       pairs_.push_back({share, distance, c, g, aligned});
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+  std::ranges::sort(pairs_, [](const Pair& a, const Pair& b) {
     return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
            std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
   });

@@ -289,8 +289,7 @@ void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
   std::vector<Vec2> used;
   for (const auto& [distance2, row, corner] : pairs_) {
     const Chain& chain = chains[row];
-    if (!to_alpha_[corner] ||
-        std::find(used.begin(), used.end(), chain.sightings[1]) != used.end()) {
+    if (!to_alpha_[corner] || std::ranges::find(used, chain.sightings[1]) != used.end()) {
       continue;
     }
     used.push_back(chain.sightings[1]);

@@ -1,4 +1,4 @@
-#include "filter/radial/comers.h"
+#include "filter/radial/radial_movers.h"
 
 #include <algorithm>
 #include <cmath>

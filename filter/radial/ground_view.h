@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "filter/circles/circle_parameters.h"
 #include "filter/kinematics/motion_field.h"

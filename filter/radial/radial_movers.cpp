@@ -1,7 +1,9 @@
 #include "filter/radial/radial_movers.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "filter/circles/mean_circle.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
@@ -34,6 +36,99 @@ RadialMovers::Result RadialMovers::step(const BothKinds<Edge>& edges,
     result.moved = &relabel_.step(edges, circles, odds_, joined_, field, circle_.trust);
   }
   return result;
+}
+
+namespace {
+
+/// Sets the members of a circle and what follows from them.
+void take_members(Circle& circle, const std::vector<Edge>& edges, std::span<const int> members,
+                  const MotionField& field) {
+  Circle mean = mean_circle(edges, members, field);
+  mean.id = circle.id;
+  mean.trust = circle.trust;
+  mean.age = circle.age;
+  circle = mean;
+}
+
+}  // namespace
+
+const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
+                                     const CircleExpert::Result& circles,
+                                     std::span<const double> odds, std::span<const int> joined,
+                                     const MotionField& field, const TrustRanks& trust) {
+  // no structured binding: clang before version 16 captures none in a lambda
+  BothKinds<Edge>& to = result_.edges;
+  CircleExpert::Result& to_circles = result_.circles;
+  auto &came = result_.came, &went = result_.went;
+  const auto& [normal, rebel] = circles.circles;
+  const auto& of_normal = circles.of_edges.normal;
+
+  // A normal circle keeps its kind as long as an edge of it does.
+  refill(left_, normal.size());
+  refill(moved_, normal.size());
+  for (std::size_t i = 0; i < edges.normal.size(); ++i) {
+    if (of_normal[i] < 0) continue;
+    if (!(odds[i] > 0)) ++left_[of_normal[i]];
+    if (odds[i] > 0 && joined[i] < 0) ++moved_[of_normal[i]];
+  }
+  refill(place_, normal.size(), -1);
+  copy_over(rebel, to_circles.circles.rebel);
+  to_circles.circles.normal.clear();
+  for (std::size_t c = 0; c < normal.size(); ++c) {
+    if (left_[c] + moved_[c] == 0) continue;
+    auto& kind = left_[c] > 0 ? to_circles.circles.normal : to_circles.circles.rebel;
+    place_[c] = static_cast<int>(kind.size());
+    kind.push_back(normal[c]);
+  }
+
+  to.normal.clear();
+  to.rebel.clear();
+  to_circles.of_edges.normal.clear();
+  to_circles.of_edges.rebel.clear();
+  came.clear();
+  went.clear();
+  std::size_t r = 0;
+  const auto add_rebels_before = [&](Id id) {
+    for (; r < edges.rebel.size() && edges.rebel[r].id < id; ++r) {
+      to.rebel.push_back(edges.rebel[r]);
+      to_circles.of_edges.rebel.push_back(circles.of_edges.rebel[r]);
+    }
+  };
+  for (std::size_t i = 0; i < edges.normal.size(); ++i) {
+    Edge edge = edges.normal[i];
+    const int own = of_normal[i] < 0 ? -1 : place_[of_normal[i]];
+    if (!(odds[i] > 0)) {
+      to.normal.push_back(edge);
+      to_circles.of_edges.normal.push_back(own);
+      continue;
+    }
+    add_rebels_before(edge.id);
+    edge.rebel = true;
+    edge.origin = edge.location - field.dt_s() * edge.velocity();
+    edge.depth_ratio_sigma = std::numeric_limits<double>::infinity();
+    edge.trust = trust.of_certainty(odds[i]);
+    if (edge.corner >= 0) (joined[i] >= 0 ? went : came).push_back(edge.corner);
+    to.rebel.push_back(edge);
+    to_circles.of_edges.rebel.push_back(joined[i] >= 0 ? joined[i] : own);
+  }
+  add_rebels_before(std::numeric_limits<Id>::max());
+
+  // Circles whose members changed.
+  const auto renew = [&](std::vector<Circle>& kind, const std::vector<Edge>& of,
+                         const std::vector<int>& circle_of_edge) {
+    for (std::size_t c = 0; c < kind.size(); ++c) {
+      members_.clear();
+      for (std::size_t i = 0; i < of.size(); ++i) {
+        if (circle_of_edge[i] == static_cast<int>(c)) members_.push_back(static_cast<int>(i));
+      }
+      const bool is_same = kind[c].rebel == of[members_.front()].rebel &&
+                           kind[c].members == static_cast<int>(members_.size());
+      if (!is_same) take_members(kind[c], of, members_, field);
+    }
+  };
+  renew(to_circles.circles.normal, to.normal, to_circles.of_edges.normal);
+  renew(to_circles.circles.rebel, to.rebel, to_circles.of_edges.rebel);
+  return result_;
 }
 
 }  // namespace lcs

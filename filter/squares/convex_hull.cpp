@@ -18,7 +18,7 @@ std::pair<Vec2, Vec2> ConvexHull::box() const {
 
 /// From the leftmost point along the upper side to the rightmost, back along the lower side.
 void ConvexHull::make_chain() {
-  std::sort(points_.begin(), points_.end(), [](const Vec2& a, const Vec2& b) {
+  std::ranges::sort(points_, [](const Vec2& a, const Vec2& b) {
     return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y());
   });
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
@@ -43,16 +43,15 @@ Outline ConvexHull::outline() {
   make_chain();
   Outline outline;
   if (std::ssize(chain_) <= Outline::kMost) {
-    std::copy(chain_.begin(), chain_.end(), outline.places.begin());
+    std::ranges::copy(chain_, outline.places.begin());
     outline.count = static_cast<int>(chain_.size());
     return outline;
   }
   // Directions and vertices turn alike: a repeated farthest vertex is the last or the first one.
   for (int k = 0; k < Outline::kMost; ++k) {
     const Vec2 direction = unit_vector(kPi * (2.0 * k / Outline::kMost - 1));
-    const Vec2& farthest = *std::max_element(
-        chain_.begin(), chain_.end(),
-        [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
+    const Vec2& farthest = *std::ranges::max_element(
+        chain_, [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
     const auto is_last = [&](int i) {
       return outline.places[static_cast<std::size_t>(i)] == farthest;
     };

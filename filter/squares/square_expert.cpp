@@ -23,8 +23,7 @@ void SquareExpert::gather(const std::vector<Edge>& edges, const std::vector<int>
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (circle_of_edge[i] >= 0) places_.push_back({circle_of_edge[i], edges[i].location});
   }
-  std::sort(places_.begin(), places_.end(),
-            [](const Place& a, const Place& b) { return a.circle < b.circle; });
+  std::ranges::sort(places_, {}, &Place::circle);
 }
 
 /// Appends the squares of circles of one kind.

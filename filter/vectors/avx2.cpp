@@ -1,9 +1,9 @@
-// Compiled with -mavx2 -mpopcnt.
-#include "filter/vectors/avx2.h"
-
+// The loops of vectors.h for machines with AVX2, compiled with -mavx2 -mpopcnt.
 #include <immintrin.h>
 
 #include <cstdint>
+
+#include "filter/vectors/vectors.h"
 
 namespace lcs::avx2 {
 #include "filter/vectors/loops.inl"

@@ -2,13 +2,16 @@
 
 #include <cstdint>
 
-#include "filter/vectors/avx2.h"
-
 namespace lcs {
 #include "filter/vectors/loops.inl"
 
 const Loops& plain_loops() {
   return kLoops;
+}
+
+/// The same loops, for machines with AVX2.
+namespace avx2 {
+const Loops& loops();
 }
 
 const Loops& best_loops() {

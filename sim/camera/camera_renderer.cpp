@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "sim/camera/gl_context.h"
@@ -70,11 +69,11 @@ void check_memory(Model& model, const GeomGroups& groups, int camera, int width_
   });
   if (trial.fine) return;
   checked = false;
-  throw std::runtime_error(fmt::format(
-      "software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit -v, "
-      "or choose a smaller camera size",
-      width_px, height_px, memory.rlim_cur >> 20,
-      trial.crash.empty() ? trial.refused : trial.crash));
+  throw std::runtime_error(
+      fmt::format("software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit "
+                  "-v, or choose a smaller camera size",
+                  width_px, height_px, memory.rlim_cur >> 20,
+                  trial.crash.empty() ? trial.refused : trial.crash));
 }
 
 double sum(const cv::Vec3b& colour) {
@@ -191,14 +190,13 @@ struct CameraRenderer::Impl {
     if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
         buffer.height < height_px) {
       const bool is_picture = problem.empty() || problem.find("ffscreen") != std::string::npos;
-      throw std::runtime_error(
-          is_picture
-              ? fmt::format("software GL does not render images of {}x{} ({}); choose a smaller "
-                            "camera size",
-                            width_px, height_px, problem)
-              : fmt::format("software GL does not take the scene ({}); choose fewer or smaller "
-                            "textures and meshes",
-                            problem));
+      throw std::runtime_error(is_picture
+                                   ? fmt::format("software GL does not render images of {}x{} "
+                                                 "({}); choose a smaller camera size",
+                                                 width_px, height_px, problem)
+                                   : fmt::format("software GL does not take the scene ({}); choose "
+                                                 "fewer or smaller textures and meshes",
+                                                 problem));
     }
     rgb.resize(std::size_t(width_px) * height_px * 3);
     z.resize(std::size_t(width_px) * height_px);

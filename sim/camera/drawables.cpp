@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/scene/refusal.h"
+#include "sim/scene/model.h"
 #include "sim/truth/silhouette.h"
 
 namespace lcs::sim {
@@ -55,10 +55,10 @@ Drawables::Drawables(Model& model, const GeomGroups& groups, int camera)
   mjv_defaultOption(&option_);
   mjv_defaultPerturb(&perturb_);
   mjv_defaultCamera(&camera_);
-  std::fill(std::begin(option_.flags), std::end(option_.flags), mjtByte{0});
+  std::ranges::fill(option_.flags, mjtByte{0});
   option_.flags[mjVIS_TEXTURE] = option_.flags[mjVIS_STATIC] = 1;
   for (std::size_t i = 0; i < groups.size(); ++i) option_.geomgroup[i] = groups[i];
-  std::fill(std::begin(option_.sitegroup), std::end(option_.sitegroup), mjtByte{0});
+  std::ranges::fill(option_.sitegroup, mjtByte{0});
   camera_.type = mjCAMERA_FIXED;
   camera_.fixedcamid = camera;
   const int geoms = static_cast<int>(model.m().ngeom) + 1;

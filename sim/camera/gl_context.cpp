@@ -37,9 +37,9 @@ class GlContext::Library {
 namespace {
 
 [[noreturn]] void fail(const std::string& step) {
-  throw std::runtime_error("off-screen GL does not start: " + step +
-                           " failed; install Mesa's software renderer (Debian: libosmesa6, or "
-                           "libegl1 and LCS_GL=egl)");
+  throw std::runtime_error(
+      "off-screen GL does not start: " + step +
+      " failed; install Mesa's software renderer (Debian: libosmesa6, or libegl1 and LCS_GL=egl)");
 }
 
 /// The first library of these names; nullptr if none is installed.

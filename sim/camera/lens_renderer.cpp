@@ -45,9 +45,9 @@ Pinhole view_of(const Optics& optics, const cv::Mat2d& rays) {
   if (!(size_px.maxCoeff() <= kMostSide_px)) {
     throw input::Error(
         lens.source,
-        fmt::format("camera.distortion: the picture would be resampled from one of {:.0f} x {:.0f} "
-                    "pixels (at most {} a side); make camera.size smaller, or the field of view",
-                    size_px.x(), size_px.y(), kMostSide_px));
+        "camera.distortion: the picture would be resampled from one of {:.0f} x {:.0f} pixels (at "
+        "most {} a side); make camera.size smaller, or the field of view",
+        size_px.x(), size_px.y(), kMostSide_px);
   }
   return {focal_px, (kMargin_px - focal_px * low).matrix(), static_cast<int>(size_px.x()),
           static_cast<int>(size_px.y())};

@@ -37,8 +37,7 @@ std::array<double, 2> equidistant(const std::vector<double>& coefficients, doubl
 }  // namespace
 
 bool Lens::is_pinhole() const {
-  const bool is_straight =
-      std::all_of(coefficients.begin(), coefficients.end(), [](double c) { return c == 0; });
+  const bool is_straight = std::ranges::all_of(coefficients, [](double c) { return c == 0; });
   return fu_px == fv_px && is_straight && distortion != Distortion::equidistant && xi == 0 &&
          alpha == 0;
 }
@@ -90,12 +89,11 @@ Optics::Optics(const Lens& lens)
     for (int x = 0; x < rays_.cols; ++x) {
       const std::optional<Vector2d> ray = straight({x, y});
       if (!ray) {
-        throw input::Error(
-            lens_.source,
-            fmt::format("camera.distortion: the pixel ({}, {}) has no ray: the distortion turns "
-                        "back {:.0f} deg off the axis, or reaches beyond 80 deg; correct the "
-                        "coefficients, or make the picture smaller or the focal length longer",
-                        x, y, std::atan(most_radius_) * 180 / std::numbers::pi));
+        throw input::Error(lens_.source,
+                           "camera.distortion: the pixel ({}, {}) has no ray: the distortion turns "
+                           "back {:.0f} deg off the axis, or reaches beyond 80 deg; correct the "
+                           "coefficients, or make the picture smaller or the focal length longer",
+                           x, y, std::atan(most_radius_) * 180 / std::numbers::pi);
       }
       rays_(y, x) = {ray->x(), ray->y()};
     }

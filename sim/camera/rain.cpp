@@ -1,12 +1,9 @@
-#include "sim/camera/rain.h"
+#include "sim/camera/photograph.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <string>
-
-#include "sim/random.h"
 
 namespace lcs::sim {
 namespace {

@@ -78,7 +78,7 @@ lcs::sim::VideoTimes video_times(const std::string& file) {
   av_packet_free(&packet);
   avformat_close_input(&format);
   times.are_stated = times.are_stated && are_in_order(times.t_ns);
-  std::sort(times.t_ns.begin(), times.t_ns.end());
+  std::ranges::sort(times.t_ns);
   return times;
 }
 

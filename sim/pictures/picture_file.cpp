@@ -215,15 +215,13 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
   const Size size = picture_size(bytes);
   if (!size) {
     throw PictureError(
-        "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, WebP, PGM or "
-        "PPM");
+        "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, WebP, PGM or PPM");
   }
   // divided, because the product of two 32-bit sides may overflow
   if (size->width > 0 && size->height > kMostPixels / size->width) {
-    throw PictureError(
-        fmt::format("the picture has {} x {} pixels, and can have {} million in "
-                    "all; give a smaller one",
-                    size->width, size->height, kMostPixels / 1'000'000));
+    throw PictureError(fmt::format(
+        "the picture has {} x {} pixels, and can have {} million in all; give a smaller one",
+        size->width, size->height, kMostPixels / 1'000'000));
   }
   if (bytes.starts_with(kJpeg) && bytes.find(kJpegEnd, jpeg_frame(bytes)) == bytes.npos) {
     throw broken();  // for data in memory libjpeg does not report truncation

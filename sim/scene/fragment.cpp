@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -12,7 +10,6 @@
 #include <vector>
 
 #include "scenarios/scenes.h"
-#include "sim/scene/fragment_contract.h"
 #include "sim/scene/model.h"
 #include "sim/scene/texture.h"
 
@@ -88,20 +85,18 @@ void paint(Element& root, const scenario::Actor& actor) {
   if (!texture) {
     throw input::Error(
         xml::source_of(material ? *material : root),
-        fmt::format("actor '{}' has the texture '{}', and its file no material 'paint' with a "
-                    "texture to put it on; give it <texture name=\"paint\" type=\"cube\" "
-                    "builtin=\"flat\" width=\"256\" height=\"1536\"/><material name=\"paint\" "
-                    "texture=\"paint\"/>, or the actor no texture",
-                    actor.name, actor.texture));
+        "actor '{}' has the texture '{}', and its file no material 'paint' with a texture to put "
+        "it on; give it <texture name=\"paint\" type=\"cube\" builtin=\"flat\" width=\"256\" "
+        "height=\"1536\"/><material name=\"paint\" texture=\"paint\"/>, or the actor no texture",
+        actor.name, actor.texture);
   }
   std::string new_name = kPictureTexture;
   if (is_texture_style(actor.texture)) {
     new_name = fmt::format("{}{}:paint", kProceduralPrefix, actor.texture);
   } else if (!std::filesystem::is_regular_file(actor.texture)) {
-    throw input::Error(
-        actor.source,
-        fmt::format("texture '{}' is no picture that exists and no style; styles are {}",
-                    actor.texture, fmt::join(texture_styles(), ", ")));
+    throw input::Error(actor.source,
+                       "texture '{}' is no picture that exists and no style; styles are {}",
+                       actor.texture, fmt::join(texture_styles(), ", "));
   }
   bool is_shared = false;
   xml::for_each(root, [&](const Element& e) {
@@ -177,9 +172,9 @@ bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& 
     std::vector<std::string> known{scenario::kPoseZero, scenario::kPoseWalking};
     for_each(spec, mjOBJ_KEY, [&](mjsElement* e) { known.emplace_back(name_of(e)); });
     throw input::Error(
-        actor.source, fmt::format("actor '{}' has the pose '{}', which is no keyframe of its file; "
-                                  "choose one of {}",
-                                  actor.name, actor.pose, fmt::join(known, ", ")));
+        actor.source,
+        "actor '{}' has the pose '{}', which is no keyframe of its file; choose one of {}",
+        actor.name, actor.pose, fmt::join(known, ", "));
   }
   mjModel* compiled = nullptr;
   call_mujoco([&] { compiled = mj_compile(&spec, nullptr); });

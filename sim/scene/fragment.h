@@ -3,7 +3,7 @@
 ///
 /// A fragment is MJCF with one body called `base` (x forward, z up, origin on the ground below its
 /// middle). MuJoCo compiles it with its own unit of angles, folders and defaults, so that a scene
-/// cannot change its meaning. Loading checks it (`sim/scene/fragment_contract.h`).
+/// cannot change its meaning. Loading checks it (fragment_contract.cpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -32,5 +32,21 @@ Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader);
 
 /// The fragment of the rover. Only a wheeled rover keeps its contacts. \throws input::Error
 Fragment rover_fragment(const scenario::Ego& ego, SpecReader& reader);
+
+/// \name Checks that a rover's or actor's file has all required elements; `scenes/README.md` lists
+/// them. All throw input::Error at the file's line: the missing or wrong element, and the remedy.
+///@{
+/// \return the body `base`.
+mjsBody& check_base(const mjSpec& spec, const SpecReader& reader,
+                    const std::filesystem::path& file);
+/// \return the size that the file states.
+Eigen::Vector3d check_actor(const Fragment& actor, const SpecReader& reader);
+/// \param base whose joints are at zero: the bodies in it are those that `Gait` moves.
+void check_walker(const mjsBody& base, const SpecReader& reader);
+void check_rover(const Fragment& rover, const SpecReader& reader);
+///@}
+
+/// Whether a rover that passed `check_rover` is wheeled; otherwise it is holonomic.
+bool is_wheeled(const mjSpec& spec);
 
 }  // namespace lcs::sim

@@ -1,4 +1,4 @@
-#include "sim/scene/fragment_contract.h"
+#include "sim/scene/fragment.h"
 
 #include <fmt/format.h>
 
@@ -67,11 +67,12 @@ void check_axis(mjsElement* joint, mjtJoint type, const Eigen::Matrix3d& R, cons
       Eigen::Map<const Vector3d>(is.pos).isZero(kTolerance)) {
     return;
   }
-  reader.refuse(joint, fmt::format("TAG moves otherwise than its actuator says; give <joint "
-                                   "name=\"{}\" type=\"{}\" axis=\"...\"/> with the axis {} of "
-                                   "'base', through the origin of its body",
-                                   name_of(joint), type == mjJNT_SLIDE ? "slide" : "hinge",
-                                   fmt::join(axis.data(), axis.data() + 3, " ")));
+  reader.refuse(
+      joint,
+      fmt::format("TAG moves otherwise than its actuator says; give <joint name=\"{}\" type=\"{}\" "
+                  "axis=\"...\"/> with the axis {} of 'base', through the origin of its body",
+                  name_of(joint), type == mjJNT_SLIDE ? "slide" : "hinge",
+                  fmt::join(axis.data(), axis.data() + 3, " ")));
 }
 
 void check_joint(const mjsBody& body, const char* name, mjtJoint type, const Vector3d& axis,
@@ -91,10 +92,9 @@ void check_holonomic(const mjsBody& base, const SpecReader& reader) {
   std::vector<std::string> order;
   for_each_in(base, mjOBJ_JOINT, false, [&](mjsElement* e) { order.emplace_back(name_of(e)); });
   if (order != std::vector<std::string>{"x", "y", "yaw"}) {
-    reader.refuse(base.element,
-                  fmt::format("the body 'base' of a holonomic rover has the joints {}; give it x, "
-                              "y and yaw in this order, and no other",
-                              fmt::join(order, ", ")));
+    reader.refuse(base.element, fmt::format("the body 'base' of a holonomic rover has the joints "
+                                            "{}; give it x, y and yaw in this order, and no other",
+                                            fmt::join(order, ", ")));
   }
 }
 
@@ -116,11 +116,10 @@ Wheel check_wheel(const mjsBody& base, mjsElement* joint, const SpecReader& read
   mjsElement* const first = mjs_firstChild(body, mjOBJ_GEOM, 0);
   const mjtGeom type = first ? mjs_asGeom(first)->type : mjGEOM_NONE;
   if (type != mjGEOM_SPHERE && type != mjGEOM_CYLINDER && type != mjGEOM_ELLIPSOID) {
-    reader.refuse(
-        first ? first : body->element,
-        fmt::format("the first geom of the wheel with the joint '{}' tells its radius, and "
-                    "it {}; give it a sphere, cylinder or ellipsoid first",
-                    name_of(joint), first ? "has another type" : "has none"));
+    reader.refuse(first ? first : body->element,
+                  fmt::format("the first geom of the wheel with the joint '{}' tells its radius, "
+                              "and it {}; give it a sphere, cylinder or ellipsoid first",
+                              name_of(joint), first ? "has another type" : "has none"));
   }
   wheel.radius_m = mjs_asGeom(first)->size[0];
   return wheel;
@@ -144,10 +143,9 @@ void check_wheeled(const mjSpec& spec, const mjsBody& base, const SpecReader& re
     const Wheel wheel = check_wheel(base, last, reader);
     if (radius_m == 0) radius_m = wheel.radius_m;
     if (std::abs(wheel.radius_m - radius_m) > kTolerance) {
-      reader.refuse(last,
-                    fmt::format("the wheel of TAG has a radius of {:g} m, and another one {:g} "
-                                "m; give all driven wheels the same",
-                                wheel.radius_m, radius_m));
+      reader.refuse(last, fmt::format("the wheel of TAG has a radius of {:g} m, and another one "
+                                      "{:g} m; give all driven wheels the same",
+                                      wheel.radius_m, radius_m));
     }
     middle[side] += wheel.place_m;
     ++count[side];
@@ -160,9 +158,8 @@ void check_wheeled(const mjSpec& spec, const mjsBody& base, const SpecReader& re
   }
   reader.refuse(
       mjs_getParent(last)->element,
-      fmt::format("the middles of the left and right wheels are at ({:g}, {:g}) and ({:g}, "
-                  "{:g}) m; put them at (0, y) and (0, -y), so that the rover turns about "
-                  "its origin",
+      fmt::format("the middles of the left and right wheels are at ({:g}, {:g}) and ({:g}, {:g}) "
+                  "m; put them at (0, y) and (0, -y), so that the rover turns about its origin",
                   left.x(), left.y(), right.x(), right.y()));
 }
 
@@ -240,9 +237,9 @@ void check_walker(const mjsBody& base, const SpecReader& reader) {
                                                 name));
     }
     if (!pose_in_body(found->element).R.isIdentity(kTolerance)) {
-      reader.refuse(found->element,
-                    "TAG of a walker is turned when its joints are at zero; let its "
-                    "axes be those of 'base'");
+      reader.refuse(
+          found->element,
+          "TAG of a walker is turned when its joints are at zero; let its axes be those of 'base'");
     }
     return *found;
   };
@@ -250,10 +247,9 @@ void check_walker(const mjsBody& base, const SpecReader& reader) {
     const mjsBody& found = child(parent, name);
     const Vector3d p = pose_in_body(found.element).p;
     if (p.head<2>().isZero(kTolerance) && p.z() < 0) return found;
-    reader.refuse(found.element,
-                  fmt::format("TAG of a walker is at ({:g}, {:g}, {:g}); put it right below its "
-                              "parent, at (0, 0, z) with z below 0",
-                              p.x(), p.y(), p.z()));
+    reader.refuse(found.element, fmt::format("TAG of a walker is at ({:g}, {:g}, {:g}); put it "
+                                             "right below its parent, at (0, 0, z) with z below 0",
+                                             p.x(), p.y(), p.z()));
   };
   const mjsBody& trunk = child(base, Gait::kTrunk);
   for (const std::string side : Gait::kSides) {
@@ -290,9 +286,9 @@ void check_rover(const Fragment& rover, const SpecReader& reader) {
   const bool is_holonomic = axes == 3 && left + right == 0;
   if (!is_holonomic && (axes > 0 || left == 0 || right == 0)) {
     const std::string what = fmt::format(
-        "of the actuators that say how the rover is driven, it has {}; give it "
-        "either x, y and yaw (it follows any command) or left and right (wheels; more "
-        "of them are called left_front and the like)",
+        "of the actuators that say how the rover is driven, it has {}; give it either x, y and yaw "
+        "(it follows any command) or left and right (wheels; more of them are called left_front "
+        "and the like)",
         driven.empty() ? "none" : driven);
     reader.refuse(first ? first : rover.base->element, what);
   }

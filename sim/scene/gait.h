@@ -15,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 
 #include "sim/scene/model.h"
 

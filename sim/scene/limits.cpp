@@ -92,7 +92,7 @@ constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
 
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -183,10 +183,10 @@ void check_obj(const Element& e, const fs::path& file) {
         const double index = number(word).value_or(0);  // indices begin at 1
         const double place = index < 0 ? static_cast<double>(face.counts[k]) + index : index - 1;
         if (place >= 0 && place < static_cast<double>(counts[k])) continue;
-        refuse(e, fmt::format("'{}', line {}: '{}' names no {} of the file (there are {}); correct "
-                              "the file",
-                              file.string(), face.line, corner.substr(0, kMostShown), kNames[k],
-                              counts[k]));
+        refuse(e,
+               fmt::format(
+                   "'{}', line {}: '{}' names no {} of the file (there are {}); correct the file",
+                   file.string(), face.line, corner.substr(0, kMostShown), kNames[k], counts[k]));
       }
     }
   }
@@ -197,9 +197,9 @@ void check_file(const Element& e, const fs::path& file) {
   const std::string bytes = input::InputFile(file, kAssetFile, xml::source_of(e)).bytes();
   const auto size = picture_size(bytes);
   if (size && size->width > 0 && size->height > kMostPixels / size->width) {
-    refuse(e, fmt::format("'{}' is {} x {} pixels, and can have {} million in all; choose a "
-                          "smaller one",
-                          file.string(), size->width, size->height, kMostPixels / 1'000'000));
+    refuse(e, fmt::format(
+                  "'{}' is {} x {} pixels, and can have {} million in all; choose a smaller one",
+                  file.string(), size->width, size->height, kMostPixels / 1'000'000));
   }
   // MuJoCo recognises the format by the last three characters
   const std::string name = file.string();
@@ -225,8 +225,8 @@ void check_limits(Element& root) {
       const std::string_view name = a->Name();
       if (section == "asset" && name.starts_with("file")) check_file(e, a->Value());
       check_range(e, name, a->Value());
-      const bool is_text = std::any_of(kTexts.begin(), kTexts.end(),
-                                       [&](auto text) { return name.starts_with(text); });
+      const bool is_text =
+          std::ranges::any_of(kTexts, [&](auto text) { return name.starts_with(text); });
       const bool is_truth = section == "composite" && name == "texcoord";
       if (is_text || is_truth || name.find(':') != name.npos ||
           e.Name() == std::string_view("text"))

@@ -3,7 +3,6 @@
 /// exceptions.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,6 +17,10 @@ class MujocoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// MuJoCo's message in the words of this program: in one line, with a remedy: "problem; remedy".
+/// \param more appended to the problem, for example " (body 'ball')".
+std::string in_one_line(const std::string& said, const std::string& more = "");
 
 /// Makes MuJoCo report its errors to `call_mujoco`, and keep its warnings for `take_warning`.
 /// Process-wide. All code here that uses MuJoCo calls it.

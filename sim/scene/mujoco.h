@@ -10,9 +10,6 @@
 #endif
 
 #include <array>
-#include <cstring>
-#include <stdexcept>
-#include <string>
 
 namespace lcs::sim::mj {
 

@@ -1,4 +1,4 @@
-#include "sim/scene/refusal.h"
+#include "sim/scene/model.h"
 
 #include <fmt/format.h>
 

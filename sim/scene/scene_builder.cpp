@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 #include <set>
@@ -51,9 +50,9 @@ std::vector<std::string> body_names(const mjSpec& scene) {
 void make_mocap(mjSpec& scene, const Actor& actor) {
   if (!actor.texture.empty() || actor.size_m || !actor.pose.empty()) {
     throw input::Error(actor.source,
-                       fmt::format("actor '{}' moves a body of the scene, which has its size, pose "
-                                   "and texture already; remove these keys",
-                                   actor.name));
+                       "actor '{}' moves a body of the scene, which has its size, pose and texture "
+                       "already; remove these keys",
+                       actor.name);
   }
   mjsBody& body = *mjs_findBody(&scene, actor.body->c_str());
   for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) { remove(scene, e); });
@@ -75,9 +74,8 @@ void check_placed(const Actor& actor) {
   const auto* line = std::get_if<scenario::Line>(&actor.trajectory);
   const auto* still = std::get_if<scenario::Still>(&actor.trajectory);
   if ((line && !line->from_m) || (still && !still->position_m)) {
-    throw input::Error(actor.source,
-                       fmt::format("actor '{}' is added to the scene: say where ({})", actor.name,
-                                   line ? "line: from" : "still: position"));
+    throw input::Error(actor.source, "actor '{}' is added to the scene: say where ({})", actor.name,
+                       line ? "line: from" : "still: position");
   }
 }
 
@@ -100,23 +98,22 @@ void add_actors(mjSpec& scene, const Scenario& scenario, ComposedScene& composed
   std::set<std::string> taken;
   for (const Actor& actor : scenario.actors) {
     const std::string object = actor.body.value_or(actor.name);
-    const bool is_body = std::find(bodies.begin(), bodies.end(), actor.name) != bodies.end();
-    const bool is_there = std::find(bodies.begin(), bodies.end(), object) != bodies.end();
+    const bool is_body = std::ranges::find(bodies, actor.name) != bodies.end();
+    const bool is_there = std::ranges::find(bodies, object) != bodies.end();
     if (actor.body && !is_there) fail_no_body(actor, bodies);
     if (is_body && object != actor.name) {
-      throw input::Error(actor.source, fmt::format("actor '{}' is called like another body of the "
-                                                   "scene; choose another name",
-                                                   actor.name));
+      throw input::Error(actor.source,
+                         "actor '{}' is called like another body of the scene; choose another name",
+                         actor.name);
     }
     if (is_body && !actor.body) {
       throw input::Error(actor.source,
-                         fmt::format("actor '{}' is called like a body of the scene; choose "
-                                     "another name, or move that body (body: {})",
-                                     actor.name, actor.name));
+                         "actor '{}' is called like a body of the scene; choose another name, or "
+                         "move that body (body: {})",
+                         actor.name, actor.name);
     }
     if (!taken.insert(object).second) {
-      throw input::Error(actor.source,
-                         fmt::format("'{}' is moved by two actors; keep one of them", object));
+      throw input::Error(actor.source, "'{}' is moved by two actors; keep one of them", object);
     }
     if (actor.body) {
       make_mocap(scene, actor);

@@ -9,7 +9,6 @@
 
 #include "sim/scene/limits.h"
 #include "sim/scene/model.h"
-#include "sim/scene/refusal.h"
 #include "sim/scene/texture.h"
 
 namespace lcs::sim {
@@ -26,9 +25,8 @@ void check_styles(Element& root) {
     const std::filesystem::path file = xml::attribute(e, "file");
     const std::string style(procedural_style(name ? name : file.stem().string()));
     if (style.empty() || is_texture_style(style)) return;
-    throw input::Error(xml::source_of(e),
-                       fmt::format("no texture style is called '{}'; there are {}", style,
-                                   fmt::join(texture_styles(), ", ")));
+    throw input::Error(xml::source_of(e), "no texture style is called '{}'; there are {}", style,
+                       fmt::join(texture_styles(), ", "));
   });
 }
 
@@ -144,7 +142,7 @@ std::string SpecReader::numbered(Element& root) {
     origins_.emplace(e.GetLineNum(), Origin{sources[i], tags[i]});
     ++i;
   });
-  lines_ = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  lines_ = static_cast<int>(std::ranges::count(text, '\n')) + 1;
   return text;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -334,20 +332,12 @@ constexpr std::array<Style, 14> kStyles = {{{"bricks", paint_bricks},
 /// A face of a cube texture in GL's layout, from an image that appears upright from outside with z
 /// up. The rotations convert from GL's y-up convention; top and bottom have no upright.
 cv::Mat3b as_cube_face(const cv::Mat3b& picture, int face) {
+  constexpr cv::RotateFlags kTurns[] = {cv::ROTATE_90_COUNTERCLOCKWISE, cv::ROTATE_90_CLOCKWISE,
+                                        cv::ROTATE_180};  // of +x, -x and +y
+  if (face > 2) return picture;
   cv::Mat3b out;
-  switch (face) {
-    case 0:  // +x
-      cv::rotate(picture, out, cv::ROTATE_90_COUNTERCLOCKWISE);
-      return out;
-    case 1:  // -x
-      cv::rotate(picture, out, cv::ROTATE_90_CLOCKWISE);
-      return out;
-    case 2:  // +y
-      cv::rotate(picture, out, cv::ROTATE_180);
-      return out;
-    default:
-      return picture;
-  }
+  cv::rotate(picture, out, kTurns[face]);
+  return out;
 }
 
 }  // namespace
@@ -363,7 +353,7 @@ const std::vector<std::string>& texture_styles() {
 
 bool is_texture_style(std::string_view name) {
   const auto& styles = texture_styles();
-  return std::find(styles.begin(), styles.end(), name) != styles.end();
+  return std::ranges::find(styles, name) != styles.end();
 }
 
 std::string_view procedural_style(std::string_view texture_name) {
@@ -374,8 +364,7 @@ std::string_view procedural_style(std::string_view texture_name) {
 }
 
 cv::Mat3b paint(std::string_view style, int width_px, int height_px, RandomStream random) {
-  const auto* found =
-      std::find_if(kStyles.begin(), kStyles.end(), [&](const Style& s) { return s.name == style; });
+  const auto* found = std::ranges::find(kStyles, style, &Style::name);
   if (found == kStyles.end()) {
     std::string known;
     for (const Style& s : kStyles) known += (known.empty() ? "" : ", ") + std::string(s.name);

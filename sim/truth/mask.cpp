@@ -73,10 +73,10 @@ Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px) {
     sum += run;
   }
   if (sum != all) {
-    throw std::invalid_argument(fmt::format(
-        "the mask's counts do not add up to {} x {} pixels; give all of them, of pixels outside "
-        "first",
-        size_px.height, size_px.width));
+    throw std::invalid_argument(
+        fmt::format("the mask's counts do not add up to {} x {} pixels; give all of them, of "
+                    "pixels outside first",
+                    size_px.height, size_px.width));
   }
   Mask mask = in_least_box({{{}, size_px}, Runs(runs.begin(), runs.end())});
   if (mask.box.empty()) {

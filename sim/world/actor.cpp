@@ -53,8 +53,7 @@ double heading_on(const std::vector<Waypoint>& points, std::size_t end, double h
 
 PlanarPose at(const Waypoints& waypoints, const PlanarPose& home, double t) {
   const auto& points = waypoints.points;
-  const auto later = std::upper_bound(points.begin(), points.end(), t,
-                                      [](double s, const Waypoint& p) { return s < p.at_s; });
+  const auto later = std::ranges::upper_bound(points, t, {}, &Waypoint::at_s);
   // the leg at time t; the first leg before the first waypoint, the last leg after the last one
   const auto end = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(std::distance(points.begin(), later), 1, std::ssize(points) - 1));

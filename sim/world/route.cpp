@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "sim/world/rover.h"
 
@@ -36,9 +35,9 @@ double direction(const Vector2d& v) {
 
 /// \param is_it the impossible action, for example "drive at 300 m/s (at most 100)".
 [[noreturn]] void refuse(const scenario::Ego& ego, std::size_t waypoint, const std::string& is_it) {
-  throw input::Error(
-      ego.source, fmt::format("at ego.waypoints.{} the rover would have to {}; give it more time",
-                              waypoint, is_it));
+  throw input::Error(ego.source,
+                     "at ego.waypoints.{} the rover would have to {}; give it more time", waypoint,
+                     is_it);
 }
 
 }  // namespace
@@ -99,8 +98,8 @@ Route::Route(const scenario::Ego& ego) {
 
 Route::Motion Route::at(double t_s) const {
   const auto latest = [&](const auto& all) {
-    const auto later = std::upper_bound(all.begin(), all.end(), t_s,
-                                        [](double t, const auto& one) { return t < one.from_s; });
+    const auto later =
+        std::ranges::upper_bound(all, t_s, {}, [](const auto& one) { return one.from_s; });
     return later == all.begin() ? nullptr : &*std::prev(later);
   };
   Motion motion{changes_.front().before_mps, 0};

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "sim/scene/ground.h"
 #include "sim/scene/scene_builder.h"
@@ -178,12 +177,10 @@ class WheeledRover : public Rover {
     for (const EgoPhase& phase : scenario.ego.phases) {
       constexpr double kTolerance = 1e-6;
       if (std::abs(std::sin(phase.direction_rad)) > kTolerance) {
-        throw input::Error(
-            {scenario.file.string(), 0},
-            fmt::format(
-                "a wheeled rover cannot drive sideways: the ego's direction at {} s is {:g} "
-                "deg; make it 0 or 180 deg, or the drive holonomic",
-                phase.at_s, phase.direction_rad * 180 / std::numbers::pi));
+        throw input::Error({scenario.file.string(), 0},
+                           "a wheeled rover cannot drive sideways: the ego's direction at {} s is "
+                           "{:g} deg; make it 0 or 180 deg, or the drive holonomic",
+                           phase.at_s, phase.direction_rad * 180 / std::numbers::pi);
       }
     }
   }
@@ -214,12 +211,12 @@ class WheeledRover : public Rover {
         geom < 0 ? fmt::format("nothing is under {}, so that a wheeled rover falls there; put a "
                                "floor under it, or make ego.drive holonomic",
                                start)
-                 : fmt::format("the geom{} under {} has contype {} and conaffinity {}, so that a "
-                               "wheeled rover falls through it; give it contype=\"1\" and "
-                               "conaffinity=\"1\" (and no <flag contact=\"disable\"/>), or make "
-                               "ego.drive holonomic",
-                               name.empty() ? "" : fmt::format(" '{}'", name), start,
-                               m.geom_contype[geom], m.geom_conaffinity[geom]));
+                 : fmt::format(
+                       "the geom{} under {} has contype {} and conaffinity {}, so that a wheeled "
+                       "rover falls through it; give it contype=\"1\" and conaffinity=\"1\" (and "
+                       "no <flag contact=\"disable\"/>), or make ego.drive holonomic",
+                       name.empty() ? "" : fmt::format(" '{}'", name), start, m.geom_contype[geom],
+                       m.geom_conaffinity[geom]));
   }
 
   void place(mjData& d, double z) const {
@@ -305,9 +302,8 @@ class CarriedCamera : public Rover {
 }  // namespace
 
 PlanarVelocity commanded_velocity(const std::vector<EgoPhase>& phases, std::int64_t t_ns) {
-  const auto later = std::upper_bound(
-      phases.begin(), phases.end(), t_ns,
-      [](std::int64_t t, const EgoPhase& p) { return t < std::llround(p.at_s * 1e9); });
+  const auto later = std::ranges::upper_bound(
+      phases, t_ns, {}, [](const EgoPhase& p) { return std::llround(p.at_s * 1e9); });
   if (later == phases.begin()) return {};
   const EgoPhase& phase = *std::prev(later);
   const double since = 1e-9 * static_cast<double>(t_ns) - phase.at_s;

@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -20,7 +19,7 @@
 #include "sim/rotation.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
-#include "sim/scene/refusal.h"
+#include "sim/scene/model.h"
 #include "sim/scene/texture.h"
 #include "sim/scene/trial.h"
 
@@ -51,10 +50,9 @@ void check_extent(const ComposedScene& composed, Model& model) {
   const std::string body(model.name(mjOBJ_BODY, m.geom_bodyid[farthest]));
   throw input::Error(
       geom.empty() ? composed.source(mjOBJ_BODY, body) : composed.source(mjOBJ_GEOM, geom),
-      fmt::format(
-          "the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
-          "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
-          m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
+      "the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of body "
+      "'{}' reaches {:g} m from the middle of the world; correct its place and size",
+      m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m);
 }
 
 /// Why a scene is not loaded that was tried in a child process.
@@ -102,9 +100,10 @@ std::optional<scenario::Origin> origin_of(const Model& model, const input::Sourc
   const auto [stop, error] =
       std::from_chars(text.data() + std::min(space + 1, text.size()), end, origin.seed);
   if (origin.family.empty() || error != std::errc() || stop != end) {
-    throw input::Error(where, fmt::format("the text '{}' is '{}', and names no world; write "
-                                          "family and seed, as in 'room 7', or remove it",
-                                          scenario::kOriginText, text));
+    throw input::Error(where,
+                       "the text '{}' is '{}', and names no world; write family and seed, as in "
+                       "'room 7', or remove it",
+                       scenario::kOriginText, text);
   }
   return origin;
 }
@@ -115,12 +114,11 @@ std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
   const auto of_scene = origin_of(model, composed.source(mjOBJ_TEXT, scenario::kOriginText));
   if (!scenario.origin || !of_scene) return scenario.origin ? scenario.origin : of_scene;
   if (scenario.origin->is_same_world(*of_scene)) return scenario.origin;
-  throw input::Error(
-      scenario.origin->source,
-      fmt::format("origin is {} {}, but the scene {} was drawn as {} {}; remove origin, or give "
-                  "the scene that it is of",
-                  scenario.origin->family, scenario.origin->seed, scenario.scene.string(),
-                  of_scene->family, of_scene->seed));
+  throw input::Error(scenario.origin->source,
+                     "origin is {} {}, but the scene {} was drawn as {} {}; remove origin, or give "
+                     "the scene that it is of",
+                     scenario.origin->family, scenario.origin->seed, scenario.scene.string(),
+                     of_scene->family, of_scene->seed);
 }
 
 double yaw(const Eigen::Matrix3d& R) {
@@ -165,7 +163,7 @@ bool has_contacts(const mjModel& m) {
 }
 
 bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
-  return std::any_of(gaps.begin(), gaps.end(), [&](const scenario::TimeSpan& gap) {
+  return std::ranges::any_of(gaps, [&](const scenario::TimeSpan& gap) {
     return t_ns >= std::llround(gap.from_s * 1e9) && t_ns < std::llround(gap.to_s * 1e9);
   });
 }
@@ -268,10 +266,9 @@ void World::find_objects() {
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
       if (moves && object_of_body[b] >= 0) {
-        refuse(name, fmt::format(
-                         "body '{}' has a joint inside another body; an object moves as one: take "
-                         "the joint away, or make it a body of the worldbody",
-                         name));
+        refuse(name, fmt::format("body '{}' has a joint inside another body; an object moves as "
+                                 "one: take the joint away, or make it a body of the worldbody",
+                                 name));
       }
     } else if (name == kEgoBody) {
       object_of_body[b] = -1;
@@ -353,7 +350,7 @@ void World::begin_watch(WrongStart wrong_start) {
   const std::vector<std::string>& bodies = composed_.actor_bodies;
   const auto actor_of = [&](int object) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
-    return std::find(bodies.begin(), bodies.end(), name) - bodies.begin();
+    return std::ranges::find(bodies, name) - bodies.begin();
   };
   std::vector<Watch::Named> named;
   for (const Object& object : objects_) {

@@ -158,7 +158,7 @@ def is_record(path):
 
 def is_temporary(name):
     """Whether it is a file for going on, which the next command takes away."""
-    return "/.generate" in name or ".partial-" in name or ".unfinished" in name
+    return ".partial-" in name or ".unfinished" in name
 
 
 def sha256(data):
@@ -192,8 +192,8 @@ def flattened(value, key=""):
 
 FAILED_RUNS = "a result with failed runs"
 # A finished piece of work, as the commands that go on keep it.
-FINISHED = re.compile(r" -> (\S+(?:\.unfinished/in/(?:beside/\w+/)?runs/[^/ ]+/seed-\d+|"
-                      r"/\.generate/frame-\d+\.json))$")
+FINISHED = re.compile(r" -> (\S+\.unfinished/(?:(?:in|work)/(?:beside/\w+/)?runs/[^/ ]+/seed-\d+|"
+                      r"in/mav0/cam0/data/(?!10{18}\.)\d+\.png))$")  # a second frame
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d)?(?:\.\d+)?Z?")
 MILLISECONDS = re.compile(r"\| [\d.-]+ \| [\d.-]+ \|$", re.M)  # the last columns of standing.md
 TOKEN = re.compile(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|[A-Za-z_]+|\s+|.", re.S)

@@ -1,5 +1,5 @@
 // Every file is opened by tools/input/input_file.h, every picture decoded by
-// sim/pictures/picture_file.h, every video opened by tools/output/video_reader.h and all JSON
+// sim/pictures/picture_file.h, every video opened by tools/output/video.h and all JSON
 // parsed by tools/files/json_node.h or the reader of recordings, so that their limits apply to all
 // input. No other code opens a file.
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ const std::map<std::string, std::set<std::string>> kWays{
       "sim/pictures/picture_file.cpp", "sim/pictures/picture_file.h"}},
     {R"(tjDecompress)", {"sim/pictures/picture_file.cpp"}},
     {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/pictures/media.h", "sim/pictures/media_module.cpp"}},
-    {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
+    {R"(media\(\)\.read_video)", {"tools/output/video.cpp"}},
     {R"(avformat_open|media\(\)\.video_times)",
      {"sim/pictures/media_module.cpp", "tools/replay/pictures_reader.cpp"}},
     {R"(\.open\()", {}},

@@ -13,10 +13,8 @@
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/kinematics/answer.h"
-#include "tools/kinematics/imu_study.h"
-#include "tools/kinematics/sweeps.h"
+#include "tools/kinematics/study.h"
 #include "tools/kinematics/theory.h"
-#include "tools/kinematics/timing.h"
 #include "tools/process/parallel.h"
 
 namespace lcs::kinematics {

@@ -13,7 +13,7 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -11,8 +11,8 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/frame_list.h"
 #include "tools/replay/poses_file.h"
+#include "tools/replay/recorded.h"
 
 namespace lcs::replay {
 namespace {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/save.h"
 #include "tests/scenarios/scenario_file.h"
 #include "tests/tools/files.h"
 

@@ -20,7 +20,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
-#include "tools/sequence/depth_code.h"
+#include "tools/sequence/flow_code.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::sequence {

@@ -16,7 +16,6 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/output/video.h"
-#include "tools/output/video_reader.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/events.h"

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <future>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
 #include "filter/detect/describe.h"
-#include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/timed.h"
 
 namespace lcs::bench {
@@ -130,9 +128,8 @@ void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
 
 RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers,
            int threads) {
-  const bool are_signatures_wanted =
-      std::any_of(watchers.begin(), watchers.end(),
-                  [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
+  const bool are_signatures_wanted = std::ranges::any_of(
+      watchers, [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
 
   const auto make = [&] { return see(source, corners, are_signatures_wanted); };
   const auto work = [&](const SeenFrame& seen) {
@@ -160,6 +157,19 @@ RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
            std::span<const Watcher> watchers, int threads) {
   SimulatedFrames frames(scenario, simulation);
   return run(frames, CornerFinder(scenario), watchers, threads);
+}
+
+std::vector<Eigen::Vector2f> CornerFinder::find(const cv::Mat1b& grey,
+                                                std::span<const sim::Event> events) {
+  if (!is_by_events_) return fast_.detect(grey);
+  if (!events_) events_.emplace(grey.cols, grey.rows);
+  for (const sim::Event& event : events) events_->add(event.x, event.y, event.t_ns, event.is_on);
+  return events_->step();
+}
+
+std::optional<cv::Mat1b> CornerFinder::surface() const {
+  if (!events_) return std::nullopt;
+  return events_->arc_star().picture();
 }
 
 }  // namespace lcs::bench

@@ -74,7 +74,7 @@ AnyParameters filter_parameters(const scenario::Scenario& scenario) {
   AnyParameters parameters = at(scenario.filter_preset_source, [&] { return preset(name); });
   const std::vector<std::string> known = keys_of(parameters);
   for (const scenario::FilterSetting& setting : scenario.filter) {
-    if (std::find(known.begin(), known.end(), setting.key) == known.end()) {
+    if (std::ranges::find(known, setting.key) == known.end()) {
       throw input::Error(setting.source, unknown_key(setting.key, name, known));
     }
     at(setting.source, [&] { set(parameters, setting.key, setting.value); });

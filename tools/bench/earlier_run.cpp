@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
@@ -36,8 +35,7 @@ void require_same(const fs::path& folder, const RunInfo& recorded, int frames,
                   const scenario::Scenario& scenario) {
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(
-        fmt::format("{} is no recording of this run: {}; run {} without "
-                    "--recorded to make one",
+        fmt::format("{} is no recording of this run: {}; run {} without --recorded to make one",
                     folder.string(), what, scenario.name));
   };
   if (recorded.scenario != scenario.name) refuse("it is of " + recorded.scenario);
@@ -62,10 +60,10 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
                        const Intrinsics& camera)
     : folder_(folder), camera_(camera) {
   if (!fs::exists(stored(folder, kLayersFile))) {
-    throw std::runtime_error(fmt::format(
-        "there is no run in {} with its frames; name a folder that was made with --keep all, which "
-        "is the default",
-        folder.string()));
+    throw std::runtime_error(
+        fmt::format("there is no run in {} with its frames; name a folder that was made with "
+                    "--keep all, which is the default",
+                    folder.string()));
   }
   RecordingReader reader(folder);
   info_ = reader.run();

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
 #include "tools/bench/bench.h"
 #include "tools/output/frame_pictures.h"
 

@@ -5,17 +5,48 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "tools/bench/detector.h"
 #include "tools/comparators/dis.h"
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
-#include "tools/comparators/stored_detections.h"
+#include "tools/recording/detections.h"
 #include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
 namespace {
+
+/// Detections read from a CSV file (tools/recording/DETECTIONS.md), frame by frame.
+class StoredDetections : public bench::Detector {
+ public:
+  /// \param sequence with the frames that will be processed, in order.
+  /// \throws input::Error naming file and line.
+  StoredDetections(const std::filesystem::path& csv, bench::Recording sequence)
+      : said_(bench::read_detections(csv, std::move(sequence))) {}
+
+  const FrameResult& step(const bench::DetectorInput&) override {
+    bench::FrameRecord& frame = said_.recording.frames.at(next_++);
+    result_.verdicts = std::move(frame.verdicts);
+    result_.layers = std::move(frame.layers);
+    masks_ = std::move(frame.masks);
+    return result_;
+  }
+  double bench::FrameTimes::*step_time() const override { return nullptr; }
+  bool gives_circles() const override { return said_.recording.detector.circles; }
+  const bench::SquareMasks& masks() const override { return masks_; }
+  std::vector<std::string> told() const override { return bench::lines_of(said_.counts); }
+
+ private:
+  bench::Detections said_;
+  std::size_t next_ = 0;
+  FrameResult result_;
+  bench::SquareMasks masks_;
+};
 
 using Made = std::unique_ptr<bench::Detector>;
 
@@ -49,15 +80,15 @@ constexpr DetectorKind kFile{"file", "what a detector has written", false, false
 
 /// Checks a name: only characters that are valid in a folder's name and a test's name.
 std::string own_name(const std::string& name) {
-  const bool is_plain = !name.empty() && name.front() != '.' &&
-                        std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                          return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-                        });
+  const bool is_plain =
+      !name.empty() && name.front() != '.' && std::ranges::all_of(name, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+      });
   if (!is_plain) {
-    throw std::invalid_argument(fmt::format(
-        "'{}' cannot be a detector's name; give one of letters, digits, '_', '-' and '.' by "
-        "--detector",
-        name));
+    throw std::invalid_argument(
+        fmt::format("'{}' cannot be a detector's name; give one of letters, digits, '_', '-' and "
+                    "'.' by --detector",
+                    name));
   }
   for (const DetectorKind& each : kDetectors) {
     if (each.name != name) continue;
@@ -82,8 +113,7 @@ std::span<const DetectorKind> detectors() {
 }
 
 const DetectorKind& detector(std::string_view name) {
-  const auto found = std::find_if(kDetectors.begin(), kDetectors.end(),
-                                  [&](const DetectorKind& each) { return each.name == name; });
+  const auto found = std::ranges::find(kDetectors, name, &DetectorKind::name);
   if (found != kDetectors.end()) return *found;
   std::string names;
   for (const DetectorKind& each : kDetectors) {
@@ -122,8 +152,7 @@ std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorCo
   if (!spec.detections_file.empty()) {
     if (context.recorded.empty()) {
       throw std::invalid_argument(
-          "--detections are of the frames of an earlier run; name it by "
-          "--recorded");
+          "--detections are of the frames of an earlier run; name it by --recorded");
     }
     return std::make_unique<StoredDetections>(spec.detections_file,
                                               bench::read_recording(context.recorded));

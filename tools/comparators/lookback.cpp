@@ -1,7 +1,5 @@
 #include "tools/comparators/lookback.h"
 
-#include <cmath>
-
 #include "filter/kinematics/rotation.h"
 
 namespace lcs::comparators {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -129,8 +128,7 @@ void ProgramDetector::read_answer(const std::string& line, bench::FrameRecord& f
   }
   if (*index != frame.index) {
     throw DetectorError(
-        fmt::format("its answer has the index {}; give one answer to each frame, "
-                    "in their order",
+        fmt::format("its answer has the index {}; give one answer to each frame, in their order",
                     text_of(*index)));
   }
   bench::FrameDetections detections(frame, camera_);

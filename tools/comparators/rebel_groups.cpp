@@ -1,7 +1,6 @@
 #include "tools/comparators/rebel_groups.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -135,7 +134,7 @@ void RebelGroups::name_squares() {
       if (overlap >= parameters_.same_overlap) pairs.push_back({overlap, a, b});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+  std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
     return std::tuple(-x.overlap, x.now, x.last) < std::tuple(-y.overlap, y.now, y.last);
   });
   std::vector<char> taken(last_squares_.size(), 0);

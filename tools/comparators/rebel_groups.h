@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "filter/filter.h"
+#include "filter/frame_result.h"
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
 #include "filter/squares/convex_hull.h"

@@ -559,7 +559,7 @@ void Output::make_staging() {
 fs::path Output::work() const {
   const fs::path folder = own_ / kWork;
   std::error_code error;
-  fs::create_directory(folder, error);
+  if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
   if (error) fail_to("create", folder, error);
   return folder;
 }

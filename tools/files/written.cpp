@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "tools/files/output_file.h"
+#include "tools/input/error.h"
 #include "tools/input/sha256.h"
 
 namespace lcs::bench {
@@ -51,7 +53,12 @@ std::string text_of(const WrittenFiles& files) {
 }
 
 std::string digest_of(const fs::path& file) {
-  const auto digest = input::sha256_of_file(file);
+  std::optional<std::string> digest;
+  try {
+    digest = input::sha256_of_file(file);
+  } catch (const input::Error& error) {  // of a file that this process has written
+    throw OutputError(error.what());
+  }
   if (!digest) throw OutputError(file.string() + " is gone; try again");
   return *digest;
 }

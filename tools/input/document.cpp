@@ -15,7 +15,7 @@
 #include <unordered_set>
 
 #include "tools/input/input_file.h"
-#include "tools/input/utf8.h"
+#include "tools/input/message.h"
 
 namespace lcs::input {
 namespace {
@@ -24,8 +24,7 @@ namespace {
 constexpr FileKind kScenarioFile{kMebibyte, "give the path of a scenario file (.yaml)"};
 
 Entry* find(Value& map, std::string_view key) {
-  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
-                                  [&](const Entry& entry) { return entry.key == key; });
+  const auto found = std::ranges::find(map.entries, key, &Entry::key);
   return found == map.entries.end() ? nullptr : &*found;
 }
 
@@ -242,17 +241,8 @@ void emit(YAML::Emitter& out, const Value& value, int level) {
 }  // namespace
 
 std::string_view kind_name(Value::Kind kind) {
-  switch (kind) {
-    case Value::Kind::null:
-      return "nothing";
-    case Value::Kind::scalar:
-      return "a single value";
-    case Value::Kind::list:
-      return "a list";
-    case Value::Kind::map:
-      return "a map";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"nothing", "a single value", "a list", "a map"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 Value parse_text(const std::string& text, const Source& where) {

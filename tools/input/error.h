@@ -2,8 +2,11 @@
 /// The one kind of error that tells a user what is wrong with an input, and where.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace lcs::input {
 
@@ -18,6 +21,13 @@ struct Source {
 class Error : public std::runtime_error {
  public:
   Error(const Source& where, const std::string& what_and_remedy);
+
+  /// Formats problem and remedy as `fmt::format` does.
+  template <class First, class... More>
+  Error(const Source& where, fmt::format_string<First, More...> format, First&& first,
+        More&&... more)
+      : Error(where, fmt::format(format, std::forward<First>(first), std::forward<More>(more)...)) {
+  }
 };
 
 }  // namespace lcs::input

@@ -1,7 +1,8 @@
 /// \file
-/// Makes messages printable, whatever text they quote.
+/// Makes messages printable, whatever text they quote, and validates UTF-8.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -19,5 +20,9 @@ std::string one_line(std::string_view text);
 /// An exception's message in one line. For lack of memory, file errors and other system errors it
 /// adds a remedy.
 std::string message_of(const std::exception& error);
+
+/// Length of the UTF-8 sequence at the start of `bytes`; 0 if invalid (Unicode 3.9, table 3-7: no
+/// overlong forms, no surrogates). \param bytes at least one.
+std::size_t utf8_length(std::string_view bytes);
 
 }  // namespace lcs::input

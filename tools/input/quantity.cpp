@@ -1,4 +1,4 @@
-#include "tools/input/quantity.h"
+#include "tools/input/reader.h"
 
 #include <array>
 #include <charconv>

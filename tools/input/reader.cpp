@@ -99,7 +99,7 @@ std::size_t as_choice(const Value& value, const std::string& path,
   std::vector<std::string> all = words;
   if (!other.empty()) all.push_back(other);
   require_scalar(value, path, joined(all, " or "));
-  const auto word = std::find(words.begin(), words.end(), value.text);
+  const auto word = std::ranges::find(words, value.text);
   if (word == words.end()) {
     throw Error(value.where, path + " is '" + value.text + "'; give " + joined(all, " or "));
   }
@@ -145,13 +145,12 @@ std::string Reader::path_of(std::string_view key) const {
 }
 
 bool Reader::knows(std::string_view key) const {
-  return std::find(known_.begin(), known_.end(), key) != known_.end();
+  return std::ranges::find(known_, key) != known_.end();
 }
 
 const Value* Reader::find(std::string_view key) {
   if (!knows(key)) known_.emplace_back(key);
-  const auto entry = std::find_if(map_.entries.begin(), map_.entries.end(),
-                                  [&](const Entry& e) { return e.key == key; });
+  const auto entry = std::ranges::find(map_.entries, key, &Entry::key);
   if (entry == map_.entries.end()) return nullptr;
   if (entry->value.kind == Value::Kind::null) {
     throw Error(entry->where, path_of(key) + " has no value; give one or remove the key");
@@ -167,7 +166,7 @@ const Value* Reader::require(std::string_view key) {
 
 std::optional<std::string> Reader::at_most_one_of(std::vector<std::string_view> keys) {
   std::ranges::stable_sort(keys, {}, [&](std::string_view key) {
-    return std::find(known_.begin(), known_.end(), key) - known_.begin();
+    return std::ranges::find(known_, key) - known_.begin();
   });
   std::optional<std::string> given;
   for (const std::string_view key : keys) {

@@ -42,10 +42,9 @@ std::size_t distance(std::string_view name, std::string_view known) {
 std::vector<std::string> nearest_first(std::string_view name, std::vector<std::string> names) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (std::string& known : names) ranked.emplace_back(distance(name, known), std::move(known));
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::transform(ranked.begin(), ranked.end(), names.begin(),
-                 [](auto& entry) { return std::move(entry.second); });
+  std::ranges::stable_sort(ranked, [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::transform(ranked, names.begin(),
+                         [](auto& entry) { return std::move(entry.second); });
   return names;
 }
 

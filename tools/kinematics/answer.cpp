@@ -21,7 +21,7 @@ constexpr int kAxes[] = {1, 0, 2};     // pan, tilt, roll
 /// The first row for which the condition is true.
 template <class Row, class Condition>
 const Row& row_where(const std::vector<Row>& rows, Condition condition) {
-  const auto found = std::find_if(rows.begin(), rows.end(), condition);
+  const auto found = std::ranges::find_if(rows, condition);
   if (found == rows.end()) throw std::logic_error("an experiment lacks a row of the answer");
   return *found;
 }
@@ -52,12 +52,13 @@ std::string rate_of(const Study& study) {
 
 Statement first_order(const Study& study, const PointSet& points) {
   const StudyConfig& config = study.config;
-  Statement s{"rotation",
-              fmt::format("first order: the largest turn in a frame with an error within {:g} px "
-                          "at all points",
-                          config.tolerance_px),
-              {},
-              verdict_on_rotation(study, RotationModel::first_order)};
+  Statement s{
+      "rotation",
+      fmt::format(
+          "first order: the largest turn in a frame with an error within {:g} px at all points",
+          config.tolerance_px),
+      {},
+      verdict_on_rotation(study, RotationModel::first_order)};
   for (const int axis : kAxes) {
     const double limit_rad = rotation_limit_rad(
         points, field_of(config.filter), RotationModel::first_order, axis, config.tolerance_px);
@@ -83,13 +84,13 @@ Statement homography(const Study& study) {
 
 Statement as_printed(const Study& study, const PointSet& points) {
   const StudyConfig& config = study.config;
-  Statement s{"rotation",
-              fmt::format("as printed in the paper: the largest turn in a frame with an error "
-                          "within {:g} px at all points; \"kindest\" with the better of both signs "
-                          "of the rate",
-                          config.tolerance_px),
-              {},
-              verdict_on_rotation(study, RotationModel::as_printed)};
+  Statement s{
+      "rotation",
+      fmt::format("as printed in the paper: the largest turn in a frame with an error within {:g} "
+                  "px at all points; \"kindest\" with the better of both signs of the rate",
+                  config.tolerance_px),
+      {},
+      verdict_on_rotation(study, RotationModel::as_printed)};
   for (const int axis : kAxes) {
     const auto limit_deg = [&](double told_sign) {
       return rotation_limit_rad(points, field_of(config.filter), RotationModel::as_printed, axis,
@@ -125,17 +126,16 @@ Statement depth_sources(const Study& study) {
     return drive_row(study, "straight", {RotationModel::homography, depth});
   };
   const DriveRow &reference = of(DepthSource::reference), &learnt = of(DepthSource::learnt);
-  return {
-      "translation",
-      fmt::format("rendered, straight on at {:.2g} m/s, {}: V by the reference depth of {:g} m, "
-                  "and by the landmark's own V",
-                  config.speed_mps, rate_of(study), field_of(config.filter).reference_depth_m),
-      {{"translation.reference.median", reference.error.median_px, "px",
-        reference.expected_median_px},
-       {"translation.reference.p95", reference.error.p95_px, "px", kUnknown},
-       {"translation.learnt.median", learnt.error.median_px, "px", kUnknown},
-       {"translation.learnt.p95", learnt.error.p95_px, "px", kUnknown}},
-      verdict_on(study, learnt.error.p95_px, "(95 %) by the landmark's own V")};
+  return {"translation",
+          fmt::format("rendered, straight on at {:.2g} m/s, {}: V by the reference depth of {:g} "
+                      "m, and by the landmark's own V",
+                      config.speed_mps, rate_of(study), field_of(config.filter).reference_depth_m),
+          {{"translation.reference.median", reference.error.median_px, "px",
+            reference.expected_median_px},
+           {"translation.reference.p95", reference.error.p95_px, "px", kUnknown},
+           {"translation.learnt.median", learnt.error.median_px, "px", kUnknown},
+           {"translation.learnt.p95", learnt.error.p95_px, "px", kUnknown}},
+          verdict_on(study, learnt.error.p95_px, "(95 %) by the landmark's own V")};
 }
 
 Statement imu_noise(const Study& study) {
@@ -264,15 +264,14 @@ Statement real_camera(const Study& study) {
   const LeftOut& left_out = study.left_out;
   const double worst_px =
       std::max({left_out.distortion_px, left_out.readout_px, left_out.offset_px});
-  return {
-      "camera",
-      fmt::format("configured drive: error (95 %) of points at 1 m to 16 m if the distortion, a "
-                  "readout of {:g} ms, or an offset of the clocks of {:g} ms is left in",
-                  1e3 * left_out.readout_s, 1e3 * left_out.offset_s),
-      {{"camera.distortion.p95", left_out.distortion_px, "px", kUnknown},
-       {"camera.rolling_shutter.p95", left_out.readout_px, "px", left_out.expected_readout_px},
-       {"camera.time_offset.p95", left_out.offset_px, "px", left_out.expected_offset_px}},
-      verdict_on(study, worst_px, "for the worst of them")};
+  return {"camera",
+          fmt::format("configured drive: error (95 %) of points at 1 m to 16 m if the distortion, "
+                      "a readout of {:g} ms, or an offset of the clocks of {:g} ms is left in",
+                      1e3 * left_out.readout_s, 1e3 * left_out.offset_s),
+          {{"camera.distortion.p95", left_out.distortion_px, "px", kUnknown},
+           {"camera.rolling_shutter.p95", left_out.readout_px, "px", left_out.expected_readout_px},
+           {"camera.time_offset.p95", left_out.offset_px, "px", left_out.expected_offset_px}},
+          verdict_on(study, worst_px, "for the worst of them")};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "tools/kinematics/drift.h"
+#include "tools/kinematics/study.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tools/kinematics/imu_study.h"
+#include "tools/kinematics/study.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -28,8 +28,8 @@ PointSet coarse_points(const StudyConfig& config) {
 std::vector<double> rates(const StudyConfig& config) {
   std::vector<double> all(kRates_hz.begin(), kRates_hz.end());
   const double own = config.scenario.camera.rate_hz;
-  if (std::find(all.begin(), all.end(), own) == all.end()) all.push_back(own);
-  std::sort(all.begin(), all.end());
+  if (std::ranges::find(all, own) == all.end()) all.push_back(own);
+  std::ranges::sort(all);
   return all;
 }
 

@@ -1,4 +1,4 @@
-#include "tools/kinematics/models.h"
+#include "tools/kinematics/points.h"
 
 #include <cmath>
 
@@ -48,7 +48,7 @@ ErrorSummary summary(std::vector<double> errors_px) {
   result.rms_px = std::sqrt(squares / static_cast<double>(errors_px.size()));
   result.median_px = *bench::median(errors_px);
   result.p95_px = *bench::quantile(errors_px, 0.95);
-  result.max_px = *std::max_element(errors_px.begin(), errors_px.end());
+  result.max_px = *std::ranges::max_element(errors_px);
   return result;
 }
 

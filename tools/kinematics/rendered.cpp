@@ -1,4 +1,4 @@
-#include "tools/kinematics/rendered.h"
+#include "tools/kinematics/study.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,13 @@
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 #include "tools/kinematics/answer.h"
-#include "tools/kinematics/kinematics_script.h"
 #include "tools/report/page_writer.h"
 
 namespace lcs::kinematics {
+
+/// The text of `kinematics.js`, which lays out a study on its page.
+extern const std::string_view kKinematicsJs;
+
 namespace {
 
 constexpr const char* kAnswerText = "answer.txt";
@@ -23,17 +26,20 @@ constexpr const char* kPage = "kinematics.html";
 /// unknown ones are empty cells.
 class Csv {
  public:
-  explicit Csv(std::string_view columns, std::string_view more_columns = "")
-      : text_(fmt::format("{}{}\n", columns, more_columns)) {}
+  explicit Csv(std::string_view columns) : text_(fmt::format("{}\n", columns)) {}
 
   template <class... Cells>
   void add(const Cells&... cells) {
-    (put(cells), ...);
+    put_all(cells...);
     text_.back() = '\n';
   }
   const std::string& text() const { return text_; }
 
  private:
+  template <class... Cells>
+  void put_all(const Cells&... cells) {
+    (put(cells), ...);
+  }
   void put(std::string_view word) { text_ += fmt::format("{},", word); }
   void put(double value) { text_ += std::isfinite(value) ? fmt::format("{:.6g},", value) : ","; }
   void put(int value) { text_ += fmt::format("{},", value); }
@@ -52,6 +58,30 @@ class Csv {
       put(value);
     }
   }
+  void put(const RotationRow& r) {
+    put_all(r.points, axis_name(r.axis), r.angle_deg, r.step_m, r.model, r.error);
+  }
+  void put(const TranslationRow& r) {
+    put_all(r.points, r.speed_mps, r.rate_hz, r.depth_m, r.step_over_depth, r.depth, r.error);
+  }
+  void put(const FoeRow& r) { put_all(r.points, r.from_px, r.to_px, r.model, r.error); }
+  void put(const FocalRow& r) {
+    put_all(r.points, r.fovy_deg, r.focal_px, r.limit_deg, r.theory_deg, r.printed_deg,
+            r.reference_median_px, r.learnt_median_px);
+  }
+  void put(const MountRow& r) {
+    put_all(r.points, axis_name(r.axis), r.error_deg, r.pan_deg, r.foe_shift_px, r.error);
+  }
+  void put(const DriveRow& r) { put_all(r.drive, r.told, r.model, r.expected_median_px, r.error); }
+  void put(const ImuRow& r) {
+    put_all(r.imu, r.rate_hz, r.odometry, r.seeds, r.expected_rms_px, r.rotation_error.rms_px,
+            r.expected_rotation_rms_px, r.error);
+  }
+  void put(const BumpRow& r) {
+    put_all(r.roughness_m, r.turn_median_deg, r.turn_p95_deg, r.turn_max_deg, r.rotation, r.told,
+            r.expected_rms_px, r.error);
+  }
+  void put(const DriftRow& r) { put_all(r.imu, r.odometry, r.t_s, r.seeds, r.rms, r.expected); }
   void put(const ErrorSummary& e) {
     put(static_cast<double>(e.count));
     for (const double value : {e.median_px, e.p95_px, e.max_px, e.rms_px}) {
@@ -62,95 +92,6 @@ class Csv {
   std::string text_;
 };
 
-constexpr std::string_view kErrors = ",points_seen,median_px,p95_px,max_px,rms_px";
-
-std::string rotation_csv(const Study& study) {
-  Csv csv("points,axis,angle_deg,step_m,rotation,depth", kErrors);
-  for (const RotationRow& r : study.rotation) {
-    csv.add(r.points, axis_name(r.axis), r.angle_deg, r.step_m, r.model, r.error);
-  }
-  return csv.text();
-}
-
-std::string translation_csv(const Study& study) {
-  Csv csv("points,speed_mps,rate_hz,depth_m,step_over_depth,depth", kErrors);
-  for (const TranslationRow& r : study.translation) {
-    csv.add(r.points, r.speed_mps, r.rate_hz, r.depth_m, r.step_over_depth, r.depth, r.error);
-  }
-  return csv.text();
-}
-
-std::string foe_distance_csv(const Study& study) {
-  Csv csv("points,from_px,to_px,rotation,depth", kErrors);
-  for (const FoeRow& r : study.foe) csv.add(r.points, r.from_px, r.to_px, r.model, r.error);
-  return csv.text();
-}
-
-std::string focal_length_csv(const Study& study) {
-  Csv csv(
-      "points,fovy_deg,focal_px,"
-      "first_order_limit_tilt_deg,first_order_limit_pan_deg,first_order_limit_roll_deg,"
-      "theory_limit_tilt_deg,theory_limit_pan_deg,theory_limit_roll_deg,"
-      "as_printed_limit_tilt_deg,as_printed_limit_pan_deg,as_printed_limit_roll_deg,"
-      "reference_median_px,learnt_median_px");
-  for (const FocalRow& r : study.focal) {
-    csv.add(r.points, r.fovy_deg, r.focal_px, r.limit_deg, r.theory_deg, r.printed_deg,
-            r.reference_median_px, r.learnt_median_px);
-  }
-  return csv.text();
-}
-
-std::string mount_csv(const Study& study) {
-  Csv csv("points,axis,error_deg,pan_deg,foe_shift_px", kErrors);
-  for (const MountRow& r : study.mount) {
-    csv.add(r.points, axis_name(r.axis), r.error_deg, r.pan_deg, r.foe_shift_px, r.error);
-  }
-  return csv.text();
-}
-
-std::string drives_csv(const Study& study) {
-  Csv csv("drive,told_by,rotation,depth,expected_median_px", kErrors);
-  for (const DriveRow& r : study.drives) {
-    csv.add(r.drive, r.told, r.model, r.expected_median_px, r.error);
-  }
-  return csv.text();
-}
-
-std::string imu_csv(const Study& study) {
-  Csv csv(
-      "imu,rate_hz,odometry,seeds,expected_rms_px,rotation_rms_px,"
-      "expected_rotation_rms_px",
-      kErrors);
-  for (const ImuRow& r : study.imu) {
-    csv.add(r.imu, r.rate_hz, r.odometry, r.seeds, r.expected_rms_px, r.rotation_error.rms_px,
-            r.expected_rotation_rms_px, r.error);
-  }
-  return csv.text();
-}
-
-std::string bumps_csv(const Study& study) {
-  Csv csv(
-      "roughness_m,turn_median_deg,turn_p95_deg,turn_max_deg,rotation,told_by,"
-      "expected_rms_px",
-      kErrors);
-  for (const BumpRow& r : study.bumps) {
-    csv.add(r.roughness_m, r.turn_median_deg, r.turn_p95_deg, r.turn_max_deg, r.rotation, r.told,
-            r.expected_rms_px, r.error);
-  }
-  return csv.text();
-}
-
-std::string drift_csv(const Study& study) {
-  Csv csv(
-      "imu,odometry,t_s,seeds,tilt_rad,heading_rad,forward_mps,lateral_mps,vertical_mps,"
-      "expected_tilt_rad,expected_heading_rad,expected_forward_mps,expected_lateral_mps,"
-      "expected_vertical_mps");
-  for (const DriftRow& r : study.drift) {
-    csv.add(r.imu, r.odometry, r.t_s, r.seeds, r.rms, r.expected);
-  }
-  return csv.text();
-}
-
 std::string answer_csv(const std::vector<Statement>& statements) {
   Csv csv("topic,figure,value,unit,expected");
   for (const Statement& s : statements) {
@@ -159,18 +100,46 @@ std::string answer_csv(const std::vector<Statement>& statements) {
   return csv.text();
 }
 
+/// The table of an experiment, with a line for each of its rows.
+template <auto kRows>
+std::string csv_of(const Study& study, std::string_view columns) {
+  Csv csv(columns);
+  for (const auto& row : study.*kRows) csv.add(row);
+  return csv.text();
+}
+
 constexpr struct {
   const char* name;  // of the file, without ".csv"
-  std::string (*csv)(const Study&);
-} kTables[] = {{"rotation", rotation_csv},
-               {"translation", translation_csv},
-               {"foe_distance", foe_distance_csv},
-               {"focal_length", focal_length_csv},
-               {"mount", mount_csv},
-               {"drives", drives_csv},
-               {"imu", imu_csv},
-               {"bumps", bumps_csv},
-               {"drift", drift_csv}};
+  std::string (*csv)(const Study&, std::string_view columns);
+  const char* columns;
+} kTables[] = {
+    {"rotation", csv_of<&Study::rotation>,
+     "points,axis,angle_deg,step_m,rotation,depth,points_seen,median_px,p95_px,max_px,rms_px"},
+    {"translation", csv_of<&Study::translation>,
+     "points,speed_mps,rate_hz,depth_m,step_over_depth,depth,points_seen,median_px,p95_px,max_px,"
+     "rms_px"},
+    {"foe_distance", csv_of<&Study::foe>,
+     "points,from_px,to_px,rotation,depth,points_seen,median_px,p95_px,max_px,rms_px"},
+    {"focal_length", csv_of<&Study::focal>,
+     "points,fovy_deg,focal_px,first_order_limit_tilt_deg,first_order_limit_pan_deg,"
+     "first_order_limit_roll_deg,theory_limit_tilt_deg,theory_limit_pan_deg,"
+     "theory_limit_roll_deg,as_printed_limit_tilt_deg,as_printed_limit_pan_deg,"
+     "as_printed_limit_roll_deg,reference_median_px,learnt_median_px"},
+    {"mount", csv_of<&Study::mount>,
+     "points,axis,error_deg,pan_deg,foe_shift_px,points_seen,median_px,p95_px,max_px,rms_px"},
+    {"drives", csv_of<&Study::drives>,
+     "drive,told_by,rotation,depth,expected_median_px,points_seen,median_px,p95_px,max_px,rms_px"},
+    {"imu", csv_of<&Study::imu>,
+     "imu,rate_hz,odometry,seeds,expected_rms_px,rotation_rms_px,expected_rotation_rms_px,"
+     "points_seen,median_px,p95_px,max_px,rms_px"},
+    {"bumps", csv_of<&Study::bumps>,
+     "roughness_m,turn_median_deg,turn_p95_deg,turn_max_deg,rotation,told_by,expected_rms_px,"
+     "points_seen,median_px,p95_px,max_px,rms_px"},
+    {"drift", csv_of<&Study::drift>,
+     "imu,odometry,t_s,seeds,tilt_rad,heading_rad,forward_mps,lateral_mps,vertical_mps,"
+     "expected_tilt_rad,expected_heading_rad,expected_forward_mps,expected_lateral_mps,"
+     "expected_vertical_mps"},
+};
 
 }  // namespace
 
@@ -192,7 +161,7 @@ void write_study(const std::filesystem::path& folder, const Study& study) {
     data["statements"].push_back({{"topic", s.topic}, {"text", s.text}, {"verdict", s.verdict}});
   }
   for (const auto& table : kTables) {
-    const std::string csv = table.csv(study);
+    const std::string csv = table.csv(study, table.columns);
     bench::write_file(folder / fmt::format("{}.csv", table.name), csv);
     data["tables"][table.name] = csv;
   }

@@ -1,4 +1,4 @@
-#include "tools/kinematics/sweeps.h"
+#include "tools/kinematics/study.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,6 @@
 /// Theoretical errors of the experiments, for the same camera.
 #pragma once
 
-#include <span>
-
 #include "scenarios/scenario.h"
 #include "tools/kinematics/points.h"
 

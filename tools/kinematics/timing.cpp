@@ -1,8 +1,6 @@
-#include "tools/kinematics/timing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "sim/drive.h"
 #include "tools/kinematics/study.h"

@@ -1,4 +1,4 @@
-#include "tools/output/frame_painter.h"
+#include "tools/output/result.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "sim/pictures/picture_file.h"
 
@@ -43,7 +42,7 @@ FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_p
   constexpr std::size_t kBlock = 1 << 16;
   const cv::Size2l expected(cvRound(image_px.width * scale_), cvRound(image_px.height * scale_));
   const auto fail = [&](const std::string& what) {
-    throw input::Error({file.string(), 0}, fmt::format("{}; {}", what, kRecordAgain));
+    throw input::Error({file.string(), 0}, "{}; {}", what, kRecordAgain);
   };
   std::string bytes;  // from the last start on
   while (true) {

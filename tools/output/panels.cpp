@@ -103,7 +103,7 @@ class Pen {
       const cv::Rect box(seen.x, seen.y + lines * line - size.height, size.width, line);
       const auto meets = [&](const cv::Rect& other) { return (other & box).area() > 0; };
       if (box.y < 0 || box.y + box.height > panel_.rows) continue;
-      if (std::any_of(names_.begin(), names_.end(), meets)) continue;
+      if (std::ranges::any_of(names_, meets)) continue;
       seen.y += lines * line;
       break;
     }

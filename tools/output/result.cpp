@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <string>
 
 #include "tools/output/event_pictures.h"
 #include "tools/recording/warnings.h"

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -13,15 +14,37 @@
 
 #include "tools/files/output.h"
 #include "tools/files/provenance.h"
-#include "tools/output/frame_painter.h"
 #include "tools/output/frame_pictures.h"
+#include "tools/output/panels.h"
 #include "tools/output/video.h"
+#include "tools/recording/recording.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
+
+/// Pictures of a run: each frame's four panels, with boxes of the truth beneath the layers, and the
+/// found, missed and false items of that frame alone. Unlike for recall, a rebel counts as missed
+/// from its first frame on.
+class FramePainter {
+ public:
+  /// \param image_px size of the camera's image. \param run with the names of scenario and objects,
+  ///   and whether their truth is known.
+  FramePainter(cv::Size image_px, const RunInfo& run);
+
+  cv::Size size_px() const { return sheet_.size_px(); }
+
+  /// \param image of the frame, BGR. \throws std::invalid_argument like `PanelSheet::draw`.
+  cv::Mat3b paint(const FrameRecord& frame, const cv::Mat3b& image) const;
+
+ private:
+  PanelSheet sheet_;
+  std::string scenario_;
+  bool is_truth_known_;
+  std::map<int, std::string> names_;  ///< by object id
+};
 
 /// All files that the folder of a run may contain.
 ResultNames result_files();

@@ -61,8 +61,8 @@ std::string scores(const Metrics& metrics) {
           value(metrics, "rebel.recall").value_or(0) >
       0.5) {
     text +=
-        remark(fmt::format("a mover is found by {} of its corners in one frame; recall counts "
-                           "all of its corners in all frames",
+        remark(fmt::format("a mover is found by {} of its corners in one frame; recall counts all "
+                           "of its corners in all frames",
                            kCornersToFind));
   }
   text += line("squares", metrics, true,
@@ -90,8 +90,7 @@ std::string table(const Metrics& metrics) {
   const auto size = [&](const char* key) { return metric(key).number(value(metrics, key)); };
   text += fmt::format(
       "  size     {} items (edges, circles, squares) are kept; 5 frames have {} corners, 8 have "
-      "{}, "
-      "all {}\n",
+      "{}, all {}\n",
       size("dimension.mean"), size("dimension.five_frame_mean"), size("dimension.eight_frame_mean"),
       size("dimension.accumulative_final"));
   text += line("time", metrics, false,

@@ -1,5 +1,5 @@
 /// \file
-/// Writes an MP4 file frame by frame.
+/// Writes an MP4 file frame by frame, and opens video files safely.
 #pragma once
 
 #include <filesystem>
@@ -32,5 +32,10 @@ class Video {
   std::unique_ptr<cv::VideoWriter> writer_;
   int frames_ = 0;
 };
+
+/// All videos are opened by this function. By default FFmpeg guesses formats: it decodes text as
+/// pictures, and follows playlists to other files. This reads only MP4, MOV, AVI, MKV, WebM, MPEG,
+/// FLV, ASF and OGG. \return not opened for any other format.
+std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file);
 
 }  // namespace lcs::bench

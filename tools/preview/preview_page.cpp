@@ -274,8 +274,7 @@ class PreviewPage : public report::TextPage {
     const Window w = window();
     const Vector2d size_px = w.scale * w.box.sizes();
     add("<div class=\"plan\"><svg viewBox=\"0 0 {:.1f} {:.1f}\" role=\"img\" aria-label=\"plan "
-        "from "
-        "above\">\n",
+        "from above\">\n",
         size_px.x(), size_px.y());
     grid(w, size_px);
     // Omits ceilings, lamps and other things well above the camera, which would cover the plan.

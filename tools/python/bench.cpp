@@ -277,8 +277,10 @@ Finished runs are kept if it raises or is interrupted, and the same call goes on
       "Joins the folders of the parts of a suite (shard). Returns as suite.");
   define(
       module, {.positional = 2}, app::CompareRequest{},
-      [](const app::CompareRequest& request, PythonCaller&) {
-        const auto [old, now, comparison, verdict] = app::compare(request);
+      [](const app::CompareRequest& request, PythonCaller& caller) {
+        const auto [old, now, comparison, verdict, warnings] = app::compare(request);
+        caller.warn(warnings);
+        caller.messages();
         return dict_of(comparison, verdict);
       },
       R"(The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).

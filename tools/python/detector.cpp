@@ -1,5 +1,4 @@
-#include "tools/python/detector.h"
-
+// The Python class of the comparators and of detectors in programs.
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -67,11 +66,11 @@ class Detector {
 }  // namespace
 
 void bind_detector(py::module_& module) {
-  class_of<Detector>(module, "Detector",
-                     "A detector of the bench: lcs, lcs:lab, lcs:cars, klt, homography, dis "
-                     "(tools/comparators/README.md), or a\n"
-                     "program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs "
-                     "run.")
+  class_of<Detector>(
+      module, "Detector",
+      "A detector of the bench: lcs, lcs:lab, lcs:cars, klt, homography, dis "
+      "(tools/comparators/README.md), or a\n"
+      "program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs run.")
       .def(py::init([](const Scenario& scenario, const std::string& name,
                        const std::string& command, double timeout) {
              return std::make_unique<Detector>(scenario,

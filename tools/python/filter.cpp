@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -77,8 +76,8 @@ py::array codes(const py::object& self, std::vector<Enum> FrameResult::*list) {
 py::array rebels(const Result& result) {
   const std::vector<Verdict>& verdicts = result.said.verdicts;
   py::array_t<bool> flags(std::ssize(verdicts));
-  std::transform(verdicts.begin(), verdicts.end(), flags.mutable_data(),
-                 [](Verdict verdict) { return verdict == Verdict::rebel; });
+  std::ranges::transform(verdicts, flags.mutable_data(),
+                         [](Verdict verdict) { return verdict == Verdict::rebel; });
   return read_only(flags);
 }
 

@@ -14,7 +14,6 @@
 #include "tools/python/guard.h"
 #include "tools/python/type.h"
 #include "tools/python/typed.h"
-#include "tools/recording/box.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 

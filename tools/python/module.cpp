@@ -6,18 +6,14 @@
 
 #include "tools/input/message.h"
 #include "tools/python/bench.h"
-#include "tools/python/detector.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/scenario.h"
-#include "tools/python/scorer.h"
 #include "tools/python/type.h"
 #include "tools/recording/recording_fields.h"
 
 namespace lcs::python {
 namespace {
-
-namespace py = pybind11;
 
 PyObject* error_type = nullptr;  // lives as long as the process
 

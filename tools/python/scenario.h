@@ -4,13 +4,9 @@
 
 #include <pybind11/pybind11.h>
 
-#include <filesystem>
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter/kinematics/camera.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 

@@ -1,5 +1,4 @@
-#include "tools/python/scorer.h"
-
+// The Python classes that score any detector's results on a run's frames by the bench's scorer.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -203,9 +202,8 @@ class Scorer {
       note(detections, frame, record);
       if (detections.rebels) {
         require_all_corners(frame, detections.rebels->size());
-        std::transform(detections.rebels->begin(), detections.rebels->end(),
-                       record.verdicts.begin(),
-                       [](bool rebel) { return rebel ? Verdict::rebel : Verdict::normal; });
+        std::ranges::transform(*detections.rebels, record.verdicts.begin(),
+                               [](bool rebel) { return rebel ? Verdict::rebel : Verdict::normal; });
       }
     }
     if (!run_) {
@@ -241,10 +239,10 @@ class Scorer {
           "frame {} comes where frame {} is due; give all frames in order", index, due));
     }
     if (run_ && detector_ != detector.name) {
-      throw py::value_error(fmt::format(
-          "some frames have a result of {} and this one has one of {}; give each detector a Scorer "
-          "of its own",
-          detector_, detector.name));
+      throw py::value_error(
+          fmt::format("some frames have a result of {} and this one has one of {}; give each "
+                      "detector a Scorer of its own",
+                      detector_, detector.name));
     }
   }
 

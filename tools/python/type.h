@@ -25,6 +25,12 @@ py::class_<T, Options...> class_of(py::module_& module, const char* name, const 
   return made;
 }
 
+/// \name Add the classes of detector.cpp and scorer.cpp to the module.
+///@{
+void bind_detector(py::module_& module);
+void bind_scorer(py::module_& module);
+///@}
+
 /// Makes the classes immutable, so that assigning `__class__` cannot turn an object into one of
 /// them. To be called after all classes are bound.
 void freeze_classes(const py::module_& module);

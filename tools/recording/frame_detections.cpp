@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -96,7 +95,7 @@ FrameDetections::FrameDetections(FrameRecord& frame, const std::optional<Intrins
 }
 
 void FrameDetections::add(std::string_view type, std::span<const std::string_view> values) {
-  const auto verdict = std::find(kVerdicts.begin(), kVerdicts.end(), type);
+  const auto verdict = std::ranges::find(kVerdicts, type);
   if (verdict != kVerdicts.end()) {
     add_verdict(static_cast<Verdict>(verdict - kVerdicts.begin()), values);
   } else if (type == "box") {
@@ -150,8 +149,7 @@ void FrameDetections::require_picture(const cv::Size& size_px) const {
   if (picture_px_) {
     if (size_px == *picture_px_) return;
     refuse(
-        "the mask is of {} x {} pixels, and the picture of {} x {}; give one of the picture's "
-        "size",
+        "the mask is of {} x {} pixels, and the picture of {} x {}; give one of the picture's size",
         size_px.width, size_px.height, picture_px_->width, picture_px_->height);
   }
   if (std::max(size_px.width, size_px.height) > kMostSide_px) {
@@ -195,8 +193,8 @@ void FrameDetections::require_in_picture(const char* what, const Box& shape,
   }
   if (!widened(picture, kMostSides * std::max(width, height)).contains(shape)) {
     refuse(
-        "{} reaches more than {} times as far as the picture, which has {} x {} pixels; clip it "
-        "to the picture",
+        "{} reaches more than {} times as far as the picture, which has {} x {} pixels; clip it to "
+        "the picture",
         where(), kMostSides, width, height);
   }
 }
@@ -239,8 +237,8 @@ void FrameDetections::add_mask(Id id, sim::Mask mask, const cv::Size& size_px) {
 void FrameDetections::add_square(std::span<const std::string_view> values) {
   if (values.size() < 5 || values.size() % 2 != 1) {
     refuse(
-        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter "
-        "of its outline");
+        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
+        "its outline");
   }
   Square square;
   square.id = id_in(values[0]);
@@ -324,7 +322,7 @@ VerdictCounts FrameDetections::finish() {
       if (!named_[corner]) pairs.push_back({distance_px, said, corner});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+  std::ranges::sort(pairs, [](const Pair& a, const Pair& b) {
     return std::tie(a.distance_px, a.said, a.corner) < std::tie(b.distance_px, b.said, b.corner);
   });
   for (const auto& [distance_px, said, corner] : pairs) {

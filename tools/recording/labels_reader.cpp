@@ -242,7 +242,7 @@ std::string first_line(const std::filesystem::path& file) {
   for (std::string line; input.next_line(line);) {
     if (!trimmed(line).empty()) return std::string(trimmed(line));
   }
-  throw input::Error({file.string(), 0}, fmt::format("is empty; {}", kLabelsFile.remedy));
+  throw input::Error({file.string(), 0}, "is empty; {}", kLabelsFile.remedy);
 }
 
 std::string stem_of(const std::string& name) {
@@ -291,8 +291,7 @@ std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
   for (const Picture& picture : pictures) all += picture.boxes.size();
   for (const auto& [number, place] : picture_of_) boxes += pictures[place].boxes.size();
   const std::string count = fmt::format(
-      "{} of {} labelled pictures, with {} of {} boxes, belong to the {} pictures of "
-      "the recording",
+      "{} of {} labelled pictures, with {} of {} boxes, belong to the {} pictures of the recording",
       picture_of_.size(), pictures.size(), boxes, all, recorded.size());
   if (picture_of_.empty()) {
     const auto called = [](const std::string& of, std::optional<int> number) {

@@ -4,12 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace lcs::bench {
 namespace {
@@ -167,7 +164,7 @@ void MotionWatch::add(const FrameRecord& frame) {
 
   if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) return;
   ++judged_;
-  const auto rebels = std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::rebel);
+  const auto rebels = std::ranges::count(frame.verdicts, Verdict::rebel);
   if (static_cast<double>(rebels) < kManyRebels * static_cast<double>(frame.verdicts.size())) {
     return;
   }

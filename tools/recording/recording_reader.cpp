@@ -109,7 +109,7 @@ void read(Json json, Enum& value) {
   const auto& names = names_of(value);
   std::string_view text;
   read(json, text);
-  const auto found = std::find(names.begin(), names.end(), text);
+  const auto found = std::ranges::find(names, text);
   if (found == names.end() || text.empty()) {
     throw std::runtime_error(
         input::printable(fmt::format("is the unknown word '{}'", text)));  // NUL would end it
@@ -138,7 +138,7 @@ void read(Json json, Form<Outline> outline) {
     throw std::runtime_error(fmt::format("has over {} points", Outline::kMost));
   }
   outline.value.count = static_cast<int>(points.size());
-  std::copy(points.begin(), points.end(), outline.value.places.begin());
+  std::ranges::copy(points, outline.value.places.begin());
 }
 
 /// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
@@ -295,7 +295,7 @@ std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
     if (row.sightings.size() > chain.sightings.size()) {
       throw std::runtime_error("chains has one with too many sightings");
     }
-    std::copy(row.sightings.begin(), row.sightings.end(), chain.sightings.begin());
+    std::ranges::copy(row.sightings, chain.sightings.begin());
     chain.off_field_px = row.off_field_px;
     chain.count = static_cast<int>(row.sightings.size());
   }
@@ -400,7 +400,7 @@ class LineReader {
   bool skip() { return file_.next_line(text_); }
   [[noreturn]] void fail(std::string_view what) const {
     if (what.starts_with('.')) what.remove_prefix(1);
-    throw input::Error(file_.here(), fmt::format("{}; {}", what, kRecordingFile.remedy));
+    throw input::Error(file_.here(), "{}; {}", what, kRecordingFile.remedy);
   }
 
  private:

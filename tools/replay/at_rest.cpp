@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,8 +11,6 @@
 
 namespace lcs::replay {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr std::int64_t kPart_ns = 250'000'000;
 constexpr std::size_t kFewestParts = 4;  // one second
@@ -56,8 +53,8 @@ std::vector<Part> parts_of(std::span<const sim::ImuSample> readings) {
   std::vector<Part> parts;
   while (!readings.empty()) {
     const std::int64_t end_ns = readings.front().t_ns + kPart_ns;
-    const auto end = std::find_if(readings.begin(), readings.end(),
-                                  [&](const sim::ImuSample& r) { return r.t_ns >= end_ns; });
+    const auto end =
+        std::ranges::find_if(readings, [&](const sim::ImuSample& r) { return r.t_ns >= end_ns; });
     const auto count = static_cast<std::size_t>(end - readings.begin());
     if (end == readings.end()) break;  // incomplete part
     parts.push_back(part_of(readings.first(count)));
@@ -122,8 +119,8 @@ std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
   } else if (still < kFewestParts) {
     return std::nullopt;
   }
-  const auto end = std::find_if(readings.begin(), readings.end(),
-                                [&](const sim::ImuSample& r) { return r.t_ns > until_ns; });
+  const auto end =
+      std::ranges::find_if(readings, [&](const sim::ImuSample& r) { return r.t_ns > until_ns; });
   Rest rest =
       rest_of(readings.first(static_cast<std::size_t>(end - readings.begin())), gravity_mps2);
   rest.moved = moved;

@@ -14,9 +14,9 @@ namespace lcs::replay {
 
 struct Rest {
   std::int64_t from_ns = 0, until_ns = 0;  ///< the first reading, and the end of the rest
-  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
+  Vector3d gyro_bias_radps = Vector3d::Zero();
   /// Along gravity only: a bias across it is indistinguishable from a tilt, and is taken for one.
-  Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
+  Vector3d accel_bias_mps2 = Vector3d::Zero();
   Eigen::Matrix3d R_WS = Eigen::Matrix3d::Identity();  ///< upright according to the accelerometer
   bool moved = false;  ///< the readings contradict the given duration of rest
 };

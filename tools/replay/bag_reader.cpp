@@ -20,8 +20,6 @@
 namespace lcs::replay {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kPosesFile = "poses.txt";
 constexpr input::FileKind kMessages{input::kMebibyte, "run it again"};
 
@@ -80,9 +78,9 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   if (topics.image.empty()) {
     run_reader(arguments, STDOUT_FILENO, asked.source);
     throw input::Error(asked.source,
-                       fmt::format("{} is a bag with the topics above; name that of its pictures "
-                                   "(topics.image, or --image-topic), and of an IMU or poses",
-                                   asked.path.string()));
+                       "{} is a bag with the topics above; name that of its pictures "
+                       "(topics.image, or --image-topic), and of an IMU or poses",
+                       asked.path.string());
   }
   const std::pair<const char*, const std::string&> options[] = {
       {"--image-topic", topics.image},       {"--camera-info-topic", topics.camera_info},

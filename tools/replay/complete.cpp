@@ -12,9 +12,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
-#include "tools/replay/frame_list.h"
-#include "tools/replay/in_order.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/poses_file.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
@@ -25,8 +23,7 @@
 namespace lcs::replay {
 namespace {
 
-using Eigen::Vector3d;
-
+constexpr const char* kOutsideOfPoses = "pictures are outside of the poses' time and are left out";
 constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
 
 /// \return whether the frames' times are known, not only their order.
@@ -42,9 +39,9 @@ bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
     const std::optional<double> own_hz = usual_rate_hz(times_ns);
     if (!asked.fps || (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame)) return true;
     throw input::Error(asked.source,
-                       fmt::format("the recording itself says when its pictures were taken, {:.3g} "
-                                   "a second, and fps says {:.3g}; remove fps",
-                                   own_hz.value_or(0), *asked.fps));
+                       "the recording itself says when its pictures were taken, {:.3g} a second, "
+                       "and fps says {:.3g}; remove fps",
+                       own_hz.value_or(0), *asked.fps);
   }
   const std::optional<double> fps = asked.fps ? asked.fps : recorded.fps;
   if (fps) time_by(*fps, recorded);
@@ -62,8 +59,8 @@ void choose(const scenario::Recorded& asked, int most, std::vector<RecordedFrame
 
 void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
   auto& frames = recorded.frames;
-  const auto first = std::find_if(frames.begin(), frames.end(),
-                                  [&](const auto& frame) { return frame.number >= poses; });
+  const auto first =
+      std::ranges::find_if(frames, [&](const auto& frame) { return frame.number >= poses; });
   if (first == frames.end()) return;
   recorded.tally.add("pictures have no pose and are left out", first->name(),
                      static_cast<int>(frames.end() - first));
@@ -147,8 +144,7 @@ void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings
 }
 
 /// Refuses readings whose axes are not the vehicle's, by where the accelerometer says up is.
-void require_vehicle_axes(const std::vector<sim::ImuSample>& readings,
-                          const std::filesystem::path& path) {
+void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs::path& path) {
   constexpr double kUpright = 0.7;  // cosine of the angle to z, for any slope
   Vector3d force = Vector3d::Zero();
   for (const sim::ImuSample& sample : readings) force += sample.accel_mps2;
@@ -157,17 +153,14 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings,
   const std::string file = path.string();
   if (up.z() < -kUpright) {
     throw input::Error({file, 0},
-                       "its accelerations point down, along -z, and those of an "
-                       "accelerometer at rest point up; change their sign, or turn the "
-                       "axes so that z is up");
+                       "its accelerations point down, along -z, and those of an accelerometer at "
+                       "rest point up; change their sign, or turn the axes so that z is up");
   }
-  throw input::Error(
-      {file, 0},
-      fmt::format(
-          "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, {:.2f}, "
-          "{:.2f}) by its accelerations; turn them, or give the camera's place on the IMU by "
-          "a calibration with T_BS or T_cam_imu",
-          up.x(), up.y(), up.z()));
+  throw input::Error({file, 0},
+                     "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, "
+                     "{:.2f}, {:.2f}) by its accelerations; turn them, or give the camera's place "
+                     "on the IMU by a calibration with T_BS or T_cam_imu",
+                     up.x(), up.y(), up.z());
 }
 
 void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
@@ -208,9 +201,9 @@ void require_lens(const Lens& lens) {
                        is_within(lens.cv_px, -kMostCentre_px, kMostCentre_px);
   if (is_lens) return;
   throw input::Error(lens.source,
-                     fmt::format("a focal length of {}, {} px and a principal point at {}, {} px "
-                                 "are those of no camera; correct the calibration, or give focal",
-                                 lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px));
+                     "a focal length of {}, {} px and a principal point at {}, {} px are those of "
+                     "no camera; correct the calibration, or give focal",
+                     lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px);
 }
 
 void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
@@ -246,8 +239,7 @@ void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
 
 /// The world of the pictures, according to the generated sequence or run whose folder holds them,
 /// in any layout. Absent if they are in neither.
-std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures) {
-  namespace fs = std::filesystem;
+std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
   constexpr int kMostAbove = 4;  // mav0/cam0/data is three below its sequence
   const auto stated = [](const std::optional<scenario::Origin>& origin, const std::string& name) {
     return origin ? origin : worlds::origin_named(name);
@@ -296,43 +288,39 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   auto poses = file.numbered ? poses_by_number(file, recorded)
                : by_line     ? poses_by_line(file, recorded)
                              : poses_by_time(file, recorded.has_own_clock);
-  if (poses.empty()) {
-    throw input::Error({asked.poses->string(), 0},
-                       "none of the poses belongs to a picture; give a line for each picture");
-  }
-  sort_by_time(poses, "poses", asked.poses->string(), recorded.tally);
   if (!times_known) {
     sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
   }
   // KITTI's world frame is that of the first camera.
   const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
-  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
-  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
-  keep_within(motion->first_ns(), motion->last_ns(),
-              "pictures are outside of the poses' time and are left out", recorded);
-  recorded.motion = std::move(motion);
+  move_along(std::move(poses), level, asked, *asked.poses, kOutsideOfPoses, recorded);
 }
 
-void move_by_timed_poses(const scenario::Recorded& asked, const std::filesystem::path& file,
+void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
                          const Vector3d& up_W, Recorded& recorded) {
-  const PosesFile file_poses = read_poses(file, asked.time_unit, recorded.tally);
-  if (!file_poses.timed) {
+  const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
+  if (!poses.timed) {
     throw input::Error({file.string(), 0},
                        "its poses have no times; give them as TUM has them, or poses of your own");
   }
-  std::vector<PosesMotion::CameraPose> poses;
-  for (const auto& line : file_poses.lines) {
-    if (line) poses.push_back({line->t_ns.value(), line->T_WC});
+  move_along(poses_by_time(poses, false), up_W, asked, file, kOutsideOfPoses, recorded);
+}
+
+void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<Vector3d>& level,
+                const scenario::Recorded& asked, const fs::path& file, const char* outside,
+                Recorded& recorded) {
+  if (poses.empty()) {
+    throw input::Error({file.string(), 0},
+                       "none of the poses belongs to a picture; give a line for each picture");
   }
   sort_by_time(poses, "poses", file.string(), recorded.tally);
-  const auto up = up_of_world(asked, poses.front().T_WC, up_W);
-  auto motion = std::make_unique<PosesMotion>(std::move(poses), up);
-  keep_within(motion->first_ns(), motion->last_ns(),
-              "pictures are outside of the poses' time and are left out", recorded);
+  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
+  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
+  keep_within(motion->first_ns(), motion->last_ns(), outside, recorded);
   recorded.motion = std::move(motion);
 }
 
-void move_by_readings(const scenario::Recorded& asked, const std::filesystem::path& file,
+void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
                       SensorReadings readings, Recorded& recorded) {
   recorded.settings.odometry.enabled = !readings.odometry.empty();
   take_imu_noise(asked, recorded);
@@ -392,7 +380,7 @@ void time_by(double fps, Recorded& recorded) {
 
 /// The properties of the pictures, with the user's in place of those that they show.
 void set_format(const scenario::Recorded& asked, Recorded& recorded) {
-  std::vector<std::filesystem::path> files;
+  std::vector<fs::path> files;
   for (const RecordedFrame& frame : recorded.frames) files.push_back(frame.picture);
   if (recorded.video.empty()) {
     const auto demosaic = recorded.format.demosaic;
@@ -427,10 +415,10 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   }
   set_lens(asked, recorded);
   if (!recorded.lacks.empty()) {
-    throw input::Error(asked.source,
-                       fmt::format("{} does not say {}; give these keys of recording, or the "
-                                   "options of lcs replay",
-                                   asked.path.string(), fmt::join(recorded.lacks, ", and ")));
+    throw input::Error(
+        asked.source,
+        "{} does not say {}; give these keys of recording, or the options of lcs replay",
+        asked.path.string(), fmt::join(recorded.lacks, ", and "));
   }
   choose(asked, scenario.frames, recorded.frames);
   if (recorded.frames.empty()) {

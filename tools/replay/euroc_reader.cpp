@@ -10,7 +10,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
 #include "tools/replay/times.h"
@@ -18,9 +18,6 @@
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
-using Eigen::Vector3d;
 
 constexpr const char* kTruth = "state_groundtruth_estimate0";
 constexpr const char* kMotionCapture = "mocap0";  // of TUM-VI
@@ -47,24 +44,13 @@ TableTimes times_of(const fs::path& sensor, const SensorCalibration& calibration
           kNanosecond_ns};
 }
 
-std::vector<RecordedFrame> read_frames(const fs::path& camera, const TableTimes& times,
-                                       Tally& tally) {
+void read_frames(const fs::path& camera, const TableTimes& times, Recorded& recorded) {
   const TextTable table = read_table(camera / "data.csv");
-  const std::int64_t unit_ns = times.unit_ns(table, 0, tally);
-  std::vector<RecordedFrame> frames;
-  for (const TextTable::Row& row : table.rows) {
-    const auto t_ns = time_in(row.fields[0], unit_ns);
-    if (!t_ns) {
-      tally.add("rows cannot be read and are left out", table.at(row));
-      continue;
-    }
-    const std::string name =
-        row.fields.size() > 1 && !row.fields[1].empty() ? row.fields[1] : row.fields[0] + ".png";
-    const auto place = static_cast<std::size_t>(&row - table.rows.data());
-    frames.push_back({*t_ns, camera / "data" / name, place});
-  }
-  put_in_order(frames, camera / "data.csv", tally);
-  return frames;
+  const auto picture = [&](const TextTable::Row& row) {
+    const bool is_named = row.fields.size() > 1 && !row.fields[1].empty();
+    return camera / "data" / (is_named ? row.fields[1] : row.fields[0] + ".png");
+  };
+  take_list(table, times.unit_ns(table, 0, recorded.tally), picture, recorded);
 }
 
 /// Start of dead reckoning, with the biases known there.
@@ -80,9 +66,7 @@ struct Start {
 /// or else for `kStill_ns`.
 Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
                     std::optional<double> at_rest_s, Tally& tally) {
-  const auto first = std::lower_bound(
-      imu.begin(), imu.end(), t_ns,
-      [](const sim::ImuSample& sample, std::int64_t t) { return sample.t_ns < t; });
+  const auto first = std::ranges::lower_bound(imu, t_ns, {}, &sim::ImuSample::t_ns);
   if (const auto rest = rest_at_start({first, imu.end()}, at_rest_s, kGravity_mps2)) {
     tell_rest(*rest, tally);
     return {t_ns,
@@ -112,8 +96,7 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
 }
 
 Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
-  const auto at = std::lower_bound(truth.begin(), truth.end(), t_ns,
-                                   [](const TrueState& s, std::int64_t t) { return s.t_ns < t; });
+  const auto at = std::ranges::lower_bound(truth, t_ns, {}, &TrueState::t_ns);
   const TrueState& state = at == truth.end() ? truth.back() : *at;
   return {state.t_ns,
           {state.state.q_WB.toRotationMatrix(), Vector3d::Zero()},
@@ -137,12 +120,10 @@ void require_same(const fs::path& mav, const std::string& camera,
     const auto require = [&](bool same, const char* key) {
       if (same) return;
       const auto at = said.keys.find(key);
-      throw input::Error(
-          at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
-          fmt::format(
-              "{0} is not as {1} of the sequence says; generate the sequence again, or take "
-              "{1} away to replay it by its other files alone",
-              key, sequence::kSettingsFile));
+      throw input::Error(at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
+                         "{0} is not as {1} of the sequence says; generate the sequence again, or "
+                         "take {1} away to replay it by its other files alone",
+                         key, sequence::kSettingsFile);
     };
     require(
         said.T_BS && said.T_BS->R.isApprox(T_BS.R, 1e-9) && (said.T_BS->p - T_BS.p).norm() < 1e-9,
@@ -195,10 +176,10 @@ void move_as_run(const fs::path& mav, const std::string& camera,
     const fs::path file = mav / "odometry0" / "data.csv";
     readings.odometry = read_odometry_csv(file, times, recorded.tally);
     if (readings.odometry.empty()) {
-      throw input::Error({file.string(), 0},
-                         fmt::format("holds no reading of the odometry that {} says there is; "
-                                     "generate the sequence again",
-                                     sequence::kSettingsFile));
+      throw input::Error(
+          {file.string(), 0},
+          "holds no reading of the odometry that {} says there is; generate the sequence again",
+          sequence::kSettingsFile);
     }
   }
   const fs::path poses = mav / camera / "pose.csv";
@@ -231,9 +212,8 @@ std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySetti
     exact.calibration.T_BC = one.T_BC;
     return folder;
   }
-  throw input::Error(
-      asked.source,
-      fmt::format("no camera of the rig is called '{}'; give one of {}", asked.camera, names));
+  throw input::Error(asked.source, "no camera of the rig is called '{}'; give one of {}",
+                     asked.camera, names);
 }
 
 std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recorded& asked,
@@ -349,15 +329,15 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   if (exact && !exact->cameras.empty()) camera = choose_camera(asked, *exact);
   const fs::path camera_folder = mav / camera;
   if (!fs::is_directory(camera_folder)) {
-    throw input::Error(asked.source,
-                       fmt::format("{} is not there; name another camera", camera_folder.string()));
+    throw input::Error(asked.source, "{} is not there; name another camera",
+                       camera_folder.string());
   }
   const SensorCalibration sensor = calibration_in(camera_folder);
   Recorded recorded;
   if (fs::exists(camera_folder / "data.csv")) {
-    recorded.frames = read_frames(
-        camera_folder, times_of(camera_folder, sensor, asked, kSlowestCamera_hz, kFastestCamera_hz),
-        recorded.tally);
+    read_frames(camera_folder,
+                times_of(camera_folder, sensor, asked, kSlowestCamera_hz, kFastestCamera_hz),
+                recorded);
   } else {
     take_pictures(camera_folder / "data", asked.time_unit, recorded);
   }

@@ -1,8 +1,7 @@
-#include "tools/replay/frame_list.h"
+#include "tools/replay/recorded.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -11,8 +10,6 @@
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
 
 using RowOfPicture = std::map<std::string, const TextTable::Row*>;
 
@@ -80,9 +77,9 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
   }
   if (!names && table.rows.size() != recorded.frames.size()) {
     throw input::Error({file.string(), 0},
-                       fmt::format("has {} times for {} pictures, and does not name them; give one "
-                                   "for each picture, or a column with the names of the pictures",
-                                   table.rows.size(), recorded.frames.size()));
+                       "has {} times for {} pictures, and does not name them; give one for each "
+                       "picture, or a column with the names of the pictures",
+                       table.rows.size(), recorded.frames.size());
   }
   const std::size_t column = time_column(table, names);
   const std::int64_t unit_ns = time_unit_of(

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "tools/files/csv.h"
@@ -18,7 +16,7 @@ constexpr std::size_t kProjection = 12;
 
 }  // namespace
 
-KittiCalibration::KittiCalibration(const std::filesystem::path& file) : file_(file) {
+KittiCalibration::KittiCalibration(const fs::path& file) : file_(file) {
   input::InputFile input(file, kCalibration);
   int unnamed = 0;
   for (std::string line; input.next_line(line);) {
@@ -38,8 +36,8 @@ const std::vector<double>& KittiCalibration::numbers(const std::string& name,
                                                      std::size_t count) const {
   const auto found = values_.find(name);
   if (found == values_.end() || found->second.size() != count) {
-    throw input::Error({file_.string(), 0}, fmt::format("{} is missing, or is not {} numbers; {}",
-                                                        name, count, kCalibration.remedy));
+    throw input::Error({file_.string(), 0}, "{} is missing, or is not {} numbers; {}", name, count,
+                       kCalibration.remedy);
   }
   return found->second;
 }
@@ -48,8 +46,7 @@ Eigen::Matrix3d KittiCalibration::rotation(const std::string& name) const {
   const auto R = rotation_of(
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(name, 9).data()));
   if (!R) {
-    throw input::Error({file_.string(), 0},
-                       fmt::format("{} is no rotation; {}", name, kCalibration.remedy));
+    throw input::Error({file_.string(), 0}, "{} is no rotation; {}", name, kCalibration.remedy);
   }
   return *R;
 }
@@ -60,14 +57,13 @@ sim::Pose KittiCalibration::pose(const std::string& name) const {
       numbers(name, kRows).data());
   const auto R = rotation_of(rows.leftCols<3>());
   if (!R) {
-    throw input::Error({file_.string(), 0},
-                       fmt::format("{} has no rotation; {}", name, kCalibration.remedy));
+    throw input::Error({file_.string(), 0}, "{} has no rotation; {}", name, kCalibration.remedy);
   }
   return {*R, rows.col(3)};
 }
 
 sim::Pose KittiCalibration::pose() const {
-  return {rotation("R"), Eigen::Map<const Eigen::Vector3d>(numbers("T", 3).data())};
+  return {rotation("R"), Eigen::Map<const Vector3d>(numbers("T", 3).data())};
 }
 
 Lens KittiCalibration::lens(const std::string& name) const {

@@ -16,7 +16,7 @@ namespace lcs::replay {
 class KittiCalibration {
  public:
   /// Lines without a name are called P0, P1, ... \throws input::Error if it cannot be read.
-  explicit KittiCalibration(const std::filesystem::path& file);
+  explicit KittiCalibration(const fs::path& file);
 
   /// \name Access to a line. \throws input::Error if it is missing or has another length.
   ///@{
@@ -35,7 +35,7 @@ class KittiCalibration {
   ///@}
 
  private:
-  std::filesystem::path file_;
+  fs::path file_;
   std::map<std::string, std::vector<double>> values_;
 };
 

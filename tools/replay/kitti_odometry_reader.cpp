@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "tools/replay/in_order.h"
 #include "tools/replay/kitti_calibration.h"
 #include "tools/replay/poses_file.h"
 #include "tools/replay/text_table.h"
@@ -13,8 +11,6 @@
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kCameras[] = {"image_0", "image_2", "image_1", "image_3"};
 constexpr std::string_view kPrefix = "image_";
@@ -69,30 +65,23 @@ void read_motion(const scenario::Recorded& asked, const fs::path& file, const si
     if (frame.number >= poses.lines.size() || !poses.lines[frame.number]) continue;
     at_frames.push_back({frame.t_ns, poses.lines[frame.number]->T_WC * T_C0C});
   }
-  if (at_frames.empty()) {
-    throw input::Error({file.string(), 0},
-                       "none of the poses belongs to a picture; give a line for each picture");
-  }
-  const auto up_W = up_of_world(asked, at_frames.front().T_WC, Eigen::Vector3d(0, -1, 0));
-  auto motion = std::make_unique<PosesMotion>(std::move(at_frames), up_W);
-  keep_within(motion->first_ns(), motion->last_ns(), "pictures have no pose and are left out",
-              recorded);
-  recorded.motion = std::move(motion);
+  move_along(std::move(at_frames), Vector3d(0, -1, 0), asked, file,
+             "pictures have no pose and are left out", recorded);
 }
 
 }  // namespace
 
 bool is_kitti_odometry(const fs::path& folder) {
-  const bool any = std::any_of(std::begin(kCameras), std::end(kCameras),
-                               [&](const char* name) { return fs::is_directory(folder / name); });
+  const bool any = std::ranges::any_of(
+      kCameras, [&](const char* name) { return fs::is_directory(folder / name); });
   return any && fs::exists(folder / "calib.txt");
 }
 
 Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
   const std::string camera = camera_in(asked);
   if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
-    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_0",
-                                                 (asked.path / camera).string()));
+    throw input::Error(asked.source, "{} is not there; name a camera, as image_0",
+                       (asked.path / camera).string());
   }
   Recorded recorded;
   take_pictures(asked.path / camera, "", recorded);

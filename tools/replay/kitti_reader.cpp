@@ -3,9 +3,6 @@
 // KITTI-360: data_2d_raw/DRIVE/image_0X/data_rect/, beside calibration/ and data_poses/DRIVE/.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -13,16 +10,13 @@
 #include "tools/files/csv.h"
 #include "tools/input/input_file.h"
 #include "tools/replay/kitti_calibration.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
-using Eigen::Vector3d;
 
 /// A state has 30 numbers.
 constexpr input::FileKind kSmallText{input::kMebibyte, "give the file as KITTI has it"};
@@ -51,7 +45,7 @@ std::optional<NavigationState> state_in(std::istream& words) {
     return std::nullopt;
   }
   return NavigationState{0,
-                         from_rpy(numbers[kRoll], numbers[kPitch], numbers[kYaw]),
+                         sim::quaternion_of_rpy({numbers[kRoll], numbers[kPitch], numbers[kYaw]}),
                          {numbers[kEast], numbers[kNorth], numbers[kUp]}};
 }
 
@@ -80,6 +74,14 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   return states;
 }
 
+/// The pose of a camera, whose rectified pictures have this projection, on the IMU.
+sim::Pose T_BC_of(const KittiCalibration& cameras, const std::string& projection,
+                  const std::string& rectification, const sim::Pose& T_cam_velo,
+                  const sim::Pose& T_velo_imu) {
+  const sim::Pose rectify{cameras.rotation(rectification), Vector3d::Zero()};
+  return (cameras.beside(projection) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
+}
+
 struct Camera {
   Lens lens;
   sim::Pose T_BC;
@@ -93,11 +95,9 @@ std::optional<Camera> read_calibration(const fs::path& drive, const std::string&
     const KittiCalibration cameras(folder / "calib_cam_to_cam.txt");
     Camera camera;
     camera.lens = cameras.lens("P_rect_" + number);
-    const sim::Pose T_velo_imu = KittiCalibration(folder / "calib_imu_to_velo.txt").pose();
-    const sim::Pose T_cam_velo = KittiCalibration(folder / "calib_velo_to_cam.txt").pose();
-    const sim::Pose rectify{cameras.rotation("R_rect_00"), Vector3d::Zero()};
-    camera.T_BC =
-        (cameras.beside("P_rect_" + number) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
+    camera.T_BC = T_BC_of(cameras, "P_rect_" + number, "R_rect_00",
+                          KittiCalibration(folder / "calib_velo_to_cam.txt").pose(),
+                          KittiCalibration(folder / "calib_imu_to_velo.txt").pose());
     return camera;
   }
   return std::nullopt;
@@ -119,6 +119,15 @@ fs::path picture_of(const fs::path& data, std::size_t number) {
   return !fs::exists(png) && fs::exists(jpeg) ? jpeg : png;
 }
 
+/// Line k of `clock` is the time of picture k.
+void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded) {
+  const auto times = read_times(clock, recorded.tally);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i]) recorded.frames.push_back({*times[i], picture_of(data, i), i});
+  }
+  put_in_order(recorded.frames, clock, recorded.tally);
+}
+
 }  // namespace
 
 bool is_kitti(const fs::path& folder) {
@@ -131,8 +140,8 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   const std::string name = camera_in(asked);
   const fs::path camera_folder = asked.path / name;
   if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
-    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_02",
-                                                 camera_folder.string()));
+    throw input::Error(asked.source, "{} is not there; name a camera, as image_02",
+                       camera_folder.string());
   }
   Recorded recorded;
   fs::path clock = camera_folder / "timestamps.txt";
@@ -141,11 +150,7 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
     recorded.tally.add("cameras have no times of their own: those of the navigation are used",
                        name);
   }
-  const auto times = read_times(clock, recorded.tally);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i]) recorded.frames.push_back({*times[i], picture_of(camera_folder / "data", i), i});
-  }
-  put_in_order(recorded.frames, clock, recorded.tally);
+  take_frames(clock, camera_folder / "data", recorded);
   sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
   if (const auto camera = read_calibration(asked.path, name.substr(name.find('_') + 1))) {
     recorded.lens = camera->lens;
@@ -201,9 +206,10 @@ bool is_kitti_tracking(const fs::path& folder) {
 Recorded read_kitti_tracking(const scenario::Recorded& asked, bool) {
   const std::optional<Tracked> sequence = tracked_in(asked.path);
   if (!sequence) {
-    throw input::Error(asked.source, fmt::format("{} is no sequence of KITTI tracking; give "
-                                                 "training/image_02/NNNN beside training/calib",
-                                                 asked.path.string()));
+    throw input::Error(
+        asked.source,
+        "{} is no sequence of KITTI tracking; give training/image_02/NNNN beside training/calib",
+        asked.path.string());
   }
   constexpr double kRate_hz = 10;  // all of KITTI is triggered at this rate
   Recorded recorded;
@@ -237,11 +243,8 @@ Recorded read_kitti_tracking(const scenario::Recorded& asked, bool) {
     state->t_ns = recorded.frames[place].t_ns;
     states.push_back(*state);
   }
-  const sim::Pose rectify{calibration.rotation("R_rect"), Vector3d::Zero()};
-  const sim::Pose T_cam_velo = calibration.pose("Tr_velo_cam");
-  const sim::Pose T_velo_imu = calibration.pose("Tr_imu_velo");
-  const sim::Pose T_BC =
-      (calibration.beside(projection) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
+  const sim::Pose T_BC = T_BC_of(calibration, projection, "R_rect", calibration.pose("Tr_velo_cam"),
+                                 calibration.pose("Tr_imu_velo"));
   move_by_navigation(std::move(states), T_BC, recorded);
   return recorded;
 }
@@ -254,16 +257,11 @@ Recorded read_kitti_360(const scenario::Recorded& asked, bool) {
   const std::string camera = asked.camera.empty() ? "image_00" : asked.camera;
   const fs::path pictures = rectified_in(asked.path, camera);
   if (!fs::is_directory(pictures)) {
-    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_00",
-                                                 pictures.string()));
+    throw input::Error(asked.source, "{} is not there; name a camera, as image_00",
+                       pictures.string());
   }
   Recorded recorded;
-  const fs::path clock = pictures.parent_path() / "timestamps.txt";
-  const auto times = read_times(clock, recorded.tally);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i]) recorded.frames.push_back({*times[i], picture_of(pictures, i), i});
-  }
-  put_in_order(recorded.frames, clock, recorded.tally);
+  take_frames(pictures.parent_path() / "timestamps.txt", pictures, recorded);
   const fs::path whole = fs::weakly_canonical(asked.path);
   const fs::path root = whole.parent_path().parent_path();
   const fs::path calibration = root / "calibration" / "perspective.txt";

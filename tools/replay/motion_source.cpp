@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/replay/navigation.h"
-
 namespace lcs::replay {
 
-SteadyMotion::SteadyMotion(double speed_mps, const std::optional<Eigen::Vector3d>& mount_rpy_rad)
+SteadyMotion::SteadyMotion(double speed_mps, const std::optional<Vector3d>& mount_rpy_rad)
     : speed_mps_(speed_mps) {
   if (mount_rpy_rad) up_C_ = camera_mount(*mount_rpy_rad).row(2);
 }
@@ -66,7 +64,7 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
   return motions.told;
 }
 
-std::optional<Eigen::Vector3d> SensorMotion::up_C() const {
+std::optional<Vector3d> SensorMotion::up_C() const {
   return R_SC_.transpose() * feed_.estimator().R_WS().row(2).transpose();
 }
 
@@ -80,9 +78,7 @@ NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const si
 }
 
 NavigationState NavigationMotion::state_at(std::int64_t t_ns) const {
-  const auto after =
-      std::lower_bound(states_.begin(), states_.end(), t_ns,
-                       [](const NavigationState& s, std::int64_t t) { return s.t_ns < t; });
+  const auto after = std::ranges::lower_bound(states_, t_ns, {}, &NavigationState::t_ns);
   NavigationState state;
   if (after == states_.begin()) {
     state = states_.front();
@@ -104,22 +100,19 @@ EgoMotion NavigationMotion::at(std::int64_t t_ns) {
   EgoMotion motion;
   if (last_) {
     // The velocity is linear between consecutive states.
-    Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
+    Vector3d moved_m = Vector3d::Zero();
     NavigationState from = *last_;
     const auto add_until = [&](const NavigationState& to) {
       moved_m +=
           0.5 * static_cast<double>(to.t_ns - from.t_ns) * 1e-9 * (from.v_WB_mps + to.v_WB_mps);
       from = to;
     };
-    for (auto state =
-             std::upper_bound(states_.begin(), states_.end(), last_->t_ns,
-                              [](std::int64_t t, const NavigationState&s) { return t < s.t_ns; });
+    for (auto state = std::ranges::upper_bound(states_, last_->t_ns, {}, &NavigationState::t_ns);
          state != states_.end() && state->t_ns < t_ns; ++state) {
       add_until(*state);
     }
     add_until(now);
-    const sim::Pose before =
-        sim::Pose{last_->q_WB.toRotationMatrix(), Eigen::Vector3d::Zero()} * T_BC_;
+    const sim::Pose before = sim::Pose{last_->q_WB.toRotationMatrix(), Vector3d::Zero()} * T_BC_;
     const sim::Pose after = sim::Pose{now.q_WB.toRotationMatrix(), moved_m} * T_BC_;
     motion = bench::motion_between(before, after, static_cast<double>(t_ns - last_->t_ns) * 1e-9);
   }
@@ -127,18 +120,16 @@ EgoMotion NavigationMotion::at(std::int64_t t_ns) {
   return motion;
 }
 
-std::optional<Eigen::Vector3d> NavigationMotion::up_C() const {
+std::optional<Vector3d> NavigationMotion::up_C() const {
   if (!last_) return std::nullopt;
   return (last_->q_WB.toRotationMatrix() * T_BC_.R).row(2);
 }
 
-PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Eigen::Vector3d>& up_W)
+PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W)
     : poses_(std::move(poses)), up_W_(up_W) {}
 
 sim::Pose PosesMotion::pose_at(std::int64_t t_ns) const {
-  const auto after =
-      std::lower_bound(poses_.begin(), poses_.end(), t_ns,
-                       [](const CameraPose& pose, std::int64_t t) { return pose.t_ns < t; });
+  const auto after = std::ranges::lower_bound(poses_, t_ns, {}, &CameraPose::t_ns);
   if (after == poses_.end()) return poses_.back().T_WC;
   if (after == poses_.begin() || after->t_ns == t_ns) return after->T_WC;
   const CameraPose& a = *std::prev(after);
@@ -159,7 +150,7 @@ EgoMotion PosesMotion::at(std::int64_t t_ns) {
   return motion;
 }
 
-std::optional<Eigen::Vector3d> PosesMotion::up_C() const {
+std::optional<Vector3d> PosesMotion::up_C() const {
   if (!last_ || !up_W_) return std::nullopt;
   return last_->T_WC.R.transpose() * *up_W_;
 }

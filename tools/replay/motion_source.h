@@ -8,11 +8,28 @@
 #include <vector>
 
 #include "filter/ego_motion/estimator.h"
+#include "filter/ego_motion/intake.h"
 #include "scenarios/scenario.h"
+#include "sim/rotation.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"
 
 namespace lcs::replay {
+
+using Eigen::Vector3d;
+
+/// Whether a vehicle can have this velocity; larger values come from a corrupt file.
+inline bool is_speed(double x_mps, double y_mps, double z_mps) {
+  return Vector3d(x_mps, y_mps, z_mps).norm() <= kMostSpeed_mps;
+}
+
+/// R_BC of a camera mounted by roll, pitch and yaw about the fixed axes of B (x ahead, y left, z
+/// up), as `scenario::Camera::mount_rpy_rad`. All 0: it looks along x, upright.
+inline Eigen::Matrix3d camera_mount(const Vector3d& rpy_rad) {
+  Eigen::Matrix3d ahead;  // C's z is B's x, its x is -y, its y is -z
+  ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return sim::rotation_of_rpy(rpy_rad) * ahead;
+}
 
 class MotionSource {
  public:
@@ -22,7 +39,7 @@ class MotionSource {
   virtual EgoMotion at(std::int64_t t_ns) = 0;
 
   /// Up (against gravity) at the last frame, in camera coordinates; absent if unknown.
-  virtual std::optional<Eigen::Vector3d> up_C() const { return std::nullopt; }
+  virtual std::optional<Vector3d> up_C() const { return std::nullopt; }
 
   /// The exact motion to the last frame; absent if unknown.
   virtual std::optional<EgoMotion> exact() const { return std::nullopt; }
@@ -35,13 +52,13 @@ class MotionSource {
 class SteadyMotion : public MotionSource {
  public:
   /// \param mount_rpy_rad of the camera on an upright vehicle; absent: unknown.
-  SteadyMotion(double speed_mps, const std::optional<Eigen::Vector3d>& mount_rpy_rad);
+  SteadyMotion(double speed_mps, const std::optional<Vector3d>& mount_rpy_rad);
   EgoMotion at(std::int64_t t_ns) override;
-  std::optional<Eigen::Vector3d> up_C() const override { return up_C_; }
+  std::optional<Vector3d> up_C() const override { return up_C_; }
 
  private:
   double speed_mps_;
-  std::optional<Eigen::Vector3d> up_C_;
+  std::optional<Vector3d> up_C_;
   std::optional<std::int64_t> last_ns_;
 };
 
@@ -67,7 +84,7 @@ class SensorMotion : public MotionSource {
                SensorReadings readings);
   /// \throws std::runtime_error if exact poses are requested and none has this time.
   EgoMotion at(std::int64_t t_ns) override;
-  std::optional<Eigen::Vector3d> up_C() const override;
+  std::optional<Vector3d> up_C() const override;
   std::optional<EgoMotion> exact() const override { return exact_; }
   Diagnostics diagnostics() const override { return feed_.estimator().diagnostics(); }
 
@@ -85,7 +102,7 @@ class SensorMotion : public MotionSource {
 struct NavigationState {
   std::int64_t t_ns = 0;
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d v_WB_mps = Eigen::Vector3d::Zero();
+  Vector3d v_WB_mps = Vector3d::Zero();
 };
 
 /// Attitude differences and integrated velocity; linear between two states.
@@ -95,7 +112,7 @@ class NavigationMotion : public MotionSource {
   NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC);
   /// Before the first and after the last state, that state is held.
   EgoMotion at(std::int64_t t_ns) override;
-  std::optional<Eigen::Vector3d> up_C() const override;
+  std::optional<Vector3d> up_C() const override;
 
   std::int64_t first_ns() const { return states_.front().t_ns; }
   std::int64_t last_ns() const { return states_.back().t_ns; }
@@ -115,10 +132,10 @@ class PosesMotion : public MotionSource {
 
   /// \param poses by time, without duplicate times, at least one.
   /// \param up_W up (against gravity) in the poses' world frame, if known.
-  PosesMotion(std::vector<CameraPose> poses, const std::optional<Eigen::Vector3d>& up_W);
+  PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W);
   /// Before the first and after the last pose, that pose is held.
   EgoMotion at(std::int64_t t_ns) override;
-  std::optional<Eigen::Vector3d> up_C() const override;
+  std::optional<Vector3d> up_C() const override;
 
   std::int64_t first_ns() const { return poses_.front().t_ns; }
   std::int64_t last_ns() const { return poses_.back().t_ns; }
@@ -127,7 +144,7 @@ class PosesMotion : public MotionSource {
   sim::Pose pose_at(std::int64_t t_ns) const;
 
   std::vector<CameraPose> poses_;
-  std::optional<Eigen::Vector3d> up_W_;
+  std::optional<Vector3d> up_W_;
   std::optional<CameraPose> last_;
 };
 

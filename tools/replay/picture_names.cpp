@@ -41,8 +41,8 @@ bool is_picture(const fs::path& file) {
   static const std::set<std::string> kKinds = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
                                                ".tiff", ".pgm", ".ppm",  ".webp"};
   std::string kind = file.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(kind, kind.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return kKinds.contains(kind);
 }
 
@@ -78,10 +78,9 @@ Name name_of(const fs::path& file) {
 
 [[noreturn]] void refuse(const Name& of, const std::string& why) {
   throw input::Error({of.file.parent_path().string(), 0},
-                     fmt::format("the order of its pictures is not certain: {}; take away all but "
-                                 "the pictures of one camera, or give a table with their names and "
-                                 "times (times)",
-                                 why));
+                     "the order of its pictures is not certain: {}; take away all but the pictures "
+                     "of one camera, or give a table with their names and times (times)",
+                     why);
 }
 
 std::string both(const Name& a, const Name& b) {
@@ -92,9 +91,8 @@ std::string both(const Name& a, const Name& b) {
 std::vector<std::size_t> varying(const std::vector<Name>& names) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < names.front().numbers.size(); ++i) {
-    const bool is_one = std::all_of(names.begin(), names.end(), [&](const Name& name) {
-      return name.numbers[i] == names.front().numbers[i];
-    });
+    const bool is_one = std::ranges::all_of(
+        names, [&](const Name& name) { return name.numbers[i] == names.front().numbers[i]; });
     if (!is_one) places.push_back(i);
   }
   return places;
@@ -130,7 +128,7 @@ std::optional<std::int64_t> seconds_and_nanoseconds(const Name& name) {
 
 /// Sorts by one number first, then by the others from the first one on.
 void sort_by(std::vector<Name>& names, std::size_t first) {
-  std::stable_sort(names.begin(), names.end(), [&](const Name& a, const Name& b) {
+  std::ranges::stable_sort(names, [&](const Name& a, const Name& b) {
     return std::tie(a.numbers[first], a.numbers) < std::tie(b.numbers[first], b.numbers);
   });
 }
@@ -166,15 +164,14 @@ void sort_by_numbers(std::vector<Name>& names) {
         std::mismatch(names.begin(), names.end(), other.begin(),
                       [](const Name& a, const Name& b) { return a.file == b.file; });
     if (differ.first == names.end()) continue;
-    if (std::all_of(names.begin(), names.end(), is_calendar)) return;
-    if (std::all_of(names.begin(), names.end(),
-                    [](const Name& name) { return seconds_and_nanoseconds(name).has_value(); }))
+    if (std::ranges::all_of(names, is_calendar)) return;
+    if (std::ranges::all_of(
+            names, [](const Name& name) { return seconds_and_nanoseconds(name).has_value(); }))
       return;
-    refuse(names.front(),
-           fmt::format("{} of {} numbers in the names vary, and another one gives another order: "
-                       "{} may be the next",
-                       places.size(), names.front().numbers.size(),
-                       both(*differ.first, *differ.second)));
+    refuse(names.front(), fmt::format("{} of {} numbers in the names vary, and another one gives "
+                                      "another order: {} may be the next",
+                                      places.size(), names.front().numbers.size(),
+                                      both(*differ.first, *differ.second)));
   }
 }
 
@@ -184,9 +181,10 @@ void require_fractions(const std::vector<Name>& names, std::size_t place) {
   for (std::size_t i = 1; i < names.size(); ++i) {
     const Number &a = names[i - 1].numbers[place], &b = names[i].numbers[place];
     if (a.whole == b.whole && a.whole.size() < kEpoch && a.fraction.size() > b.fraction.size()) {
-      refuse(names[i], fmt::format("{} may be fractions or two numbers each, and have not the same "
-                                   "count of digits",
-                                   both(names[i - 1], names[i])));
+      refuse(names[i],
+             fmt::format(
+                 "{} may be fractions or two numbers each, and have not the same count of digits",
+                 both(names[i - 1], names[i])));
     }
   }
 }
@@ -197,16 +195,11 @@ std::optional<std::int64_t> unit_of(const Number& number, const std::string& tim
   if (!number.fraction.empty()) return kSecond_ns;
   // from September 2001 to May 2033
   if (number.whole.front() != '1' && number.whole.front() != '2') return std::nullopt;
-  switch (number.whole.size()) {
-    case 13:
-      return kMillisecond_ns;
-    case 16:
-      return kMicrosecond_ns;
-    case 19:
-      return kNanosecond_ns;
-    default:
-      return std::nullopt;
-  }
+  const std::size_t digits = number.whole.size();
+  return digits == 13   ? std::optional(kMillisecond_ns)
+         : digits == 16 ? std::optional(kMicrosecond_ns)
+         : digits == 19 ? std::optional(kNanosecond_ns)
+                        : std::nullopt;
 }
 
 std::vector<std::int64_t> times_of(const std::vector<Name>& names, std::size_t place,
@@ -254,15 +247,14 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 }
 
 OrderedPictures in_order(std::vector<fs::path> files, const std::string& time_unit) {
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   std::vector<Name> names;
-  std::transform(files.begin(), files.end(), std::back_inserter(names), name_of);
+  std::ranges::transform(files, std::back_inserter(names), name_of);
   require_one_kind(names);
   OrderedPictures ordered;
   if (!names.front().numbers.empty()) {
-    const bool is_one_kind = std::all_of(names.begin(), names.end(), [&](const Name& name) {
-      return name.words == names.front().words;
-    });
+    const bool is_one_kind = std::ranges::all_of(
+        names, [&](const Name& name) { return name.words == names.front().words; });
     if (is_one_kind) {
       sort_by_numbers(names);
     } else {

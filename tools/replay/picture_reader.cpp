@@ -1,4 +1,4 @@
-#include "tools/replay/picture_reader.h"
+#include "tools/replay/recorded.h"
 
 #include <fmt/format.h>
 

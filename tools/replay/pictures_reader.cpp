@@ -10,16 +10,12 @@
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
 #include "tools/input/input_file.h"
-#include "tools/output/video_reader.h"
-#include "tools/replay/frame_list.h"
-#include "tools/replay/in_order.h"
+#include "tools/output/video.h"
 #include "tools/replay/picture_names.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr input::FileKind kVideo{
     64 * input::kGibibyte,
@@ -116,9 +112,9 @@ Recorded read_listed(const scenario::Recorded& asked, bool) {
   const fs::path list = list_in(asked.path), pictures = pictures_of_list(asked.path);
   if (list.empty() || pictures.empty()) {
     throw input::Error(asked.source,
-                       fmt::format("{} has no list of times or no pictures; give times.txt or "
-                                   "images.txt beside a folder of pictures",
-                                   asked.path.string()));
+                       "{} has no list of times or no pictures; give times.txt or images.txt "
+                       "beside a folder of pictures",
+                       asked.path.string());
   }
   Recorded recorded;
   take_unordered(pictures, recorded);
@@ -157,8 +153,7 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
   const input::InputFile no_pipe(asked.path, kVideo, asked.source);
   const auto video = bench::open_video(asked.path);
   const auto refuse = [&](const std::string& what) {
-    throw input::Error(asked.source,
-                       fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
+    throw input::Error(asked.source, "{} {}; {}", asked.path.string(), what, kVideo.remedy);
   };
   if (!video->isOpened()) refuse("is no video that can be read");
   const double width = video->get(cv::CAP_PROP_FRAME_WIDTH);

@@ -8,6 +8,7 @@
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
 #include "tools/input/message.h"
+#include "tools/output/video.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -41,17 +42,17 @@ void Playback::require_events() const {
   const scenario::Recorded& asked = scenario_.recording.value();
   if (scenario_.corner_source == scenario::CornerSource::events && recorded_.events.empty()) {
     throw input::Error(asked.source,
-                       fmt::format("corners.from is 'events', and {} has none; remove the key, or "
-                                   "give a recording of an event camera",
-                                   asked.path.string()));
+                       "corners.from is 'events', and {} has none; remove the key, or give a "
+                       "recording of an event camera",
+                       asked.path.string());
   }
   for (const sim::Event& event : recorded_.events) {
     if (event.x < camera().width_px && event.y < camera().height_px) continue;
-    throw input::Error(
-        asked.source,
-        fmt::format("an event of {} is at ({}, {}), and its pictures have {} x {} "
-                    "pixels; give both of one camera",
-                    asked.path.string(), event.x, event.y, camera().width_px, camera().height_px));
+    throw input::Error(asked.source,
+                       "an event of {} is at ({}, {}), and its pictures have {} x {} pixels; give "
+                       "both of one camera",
+                       asked.path.string(), event.x, event.y, camera().width_px,
+                       camera().height_px);
   }
 }
 
@@ -66,8 +67,8 @@ void Playback::read_labels() {
   try {
     for (std::string& line : labels_.join(pictures)) recorded_.tally.tell(std::move(line));
   } catch (const std::invalid_argument& error) {
-    throw input::Error({asked.labels->string(), 0},
-                       fmt::format("{}; give the labels of this recording", error.what()));
+    throw input::Error({asked.labels->string(), 0}, "{}; give the labels of this recording",
+                       error.what());
   }
 }
 
@@ -94,20 +95,18 @@ void Playback::look_at_first_picture() {
   }
   const scenario::Recorded& asked = scenario_.recording.value();
   if (!first) {
-    throw input::Error(
-        asked.source,
-        fmt::format("none of the pictures in {} can be read (the first: {}); give a recording with "
-                    "its pictures",
-                    asked.path.string(), input::one_line(pictures.skipped().front())));
+    throw input::Error(asked.source,
+                       "none of the pictures in {} can be read (the first: {}); give a recording "
+                       "with its pictures",
+                       asked.path.string(), input::one_line(pictures.skipped().front()));
   }
   Lens& lens = recorded_.lens.value();
   const cv::Size size_px = first->size();
   if (lens.width_px > 0 && size_px != cv::Size(lens.width_px, lens.height_px)) {
-    throw input::Error(
-        lens.source,
-        fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
-                    "that of these pictures, or focal",
-                    lens.width_px, lens.height_px, size_px.width, size_px.height));
+    throw input::Error(lens.source,
+                       "the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
+                       "that of these pictures, or focal",
+                       lens.width_px, lens.height_px, size_px.width, size_px.height);
   }
   // A calibration that states no size has its principal point near the middle of its pictures.
   const auto is_near = [](double centre, int side) {
@@ -116,14 +115,12 @@ void Playback::look_at_first_picture() {
   };
   if (lens.width_px == 0 && !lens.centred && !asked.centre_px &&
       !(is_near(lens.cu_px, size_px.width) && is_near(lens.cv_px, size_px.height))) {
-    throw input::Error(
-        lens.source,
-        fmt::format(
-            "the principal point is ({:.1f}, {:.1f}), near the middle of a picture of {:.0f} "
-            "x {:.0f} pixels, and the pictures have {} x {}; give the calibration of these "
-            "pictures, or focal, or centre if they were cut out",
-            lens.cu_px, lens.cv_px, 2 * lens.cu_px + 1, 2 * lens.cv_px + 1, size_px.width,
-            size_px.height));
+    throw input::Error(lens.source,
+                       "the principal point is ({:.1f}, {:.1f}), near the middle of a picture of "
+                       "{:.0f} x {:.0f} pixels, and the pictures have {} x {}; give the "
+                       "calibration of these pictures, or focal, or centre if they were cut out",
+                       lens.cu_px, lens.cv_px, 2 * lens.cu_px + 1, 2 * lens.cv_px + 1,
+                       size_px.width, size_px.height);
   }
   if (lens.centred) {
     lens.cu_px = 0.5 * (size_px.width - 1);
@@ -140,10 +137,10 @@ void Playback::read_mask() {
   const cv::Mat grey = sim::read_picture(*file, where, cv::IMREAD_GRAYSCALE);
   const cv::Size size_px(camera().width_px, camera().height_px);
   if (grey.size() != size_px) {
-    throw input::Error(
-        where, fmt::format("the mask {} is of {} x {} pixels, and the pictures have {} x {}; give "
-                           "one of that size, white where the vehicle itself is seen",
-                           file->string(), grey.cols, grey.rows, size_px.width, size_px.height));
+    throw input::Error(where,
+                       "the mask {} is of {} x {} pixels, and the pictures have {} x {}; give one "
+                       "of that size, white where the vehicle itself is seen",
+                       file->string(), grey.cols, grey.rows, size_px.width, size_px.height);
   }
   mask_ = grey > kWhite;
 }
@@ -246,10 +243,10 @@ std::vector<std::string> Playback::told() const {
   }
   for (const std::string& line : recorded_.tally.lines()) lines.push_back(line);
   if (untold_ > 0) {
-    lines.push_back(fmt::format(
-        "{} of {} corners are none of those whose truth {} has, and count for nothing; leave "
-        "pictures, lens and corners.threshold as they were generated",
-        untold_, corners_, sequence::kTruthFile));
+    lines.push_back(
+        fmt::format("{} of {} corners are none of those whose truth {} has, and count for nothing; "
+                    "leave pictures, lens and corners.threshold as they were generated",
+                    untold_, corners_, sequence::kTruthFile));
   }
   if (!grounded_) {
     const bool has_height = scenario_.recording->camera_height_m.has_value();
@@ -260,6 +257,34 @@ std::vector<std::string> Playback::told() const {
             : "give camera_height, and mount where neither poses nor an IMU say where up is"));
   }
   return lines;
+}
+
+PictureStream::PictureStream(const Recorded& recorded)
+    : video_(recorded.video), files_(recorded.format) {
+  if (!video_.empty()) capture_ = bench::open_video(video_);
+}
+
+const std::vector<std::string>& PictureStream::skipped() const {
+  return video_.empty() ? files_.skipped() : skipped_;
+}
+
+std::optional<cv::Mat3b> PictureStream::read(const RecordedFrame& frame) {
+  return video_.empty() ? files_.read(frame.picture) : read_video(frame);
+}
+
+std::optional<cv::Mat3b> PictureStream::read_video(const RecordedFrame& frame) {
+  const auto skip = [&](const std::string& why) {
+    skipped_.push_back(fmt::format("picture {} of {} {}", frame.number, video_.string(), why));
+    return std::nullopt;
+  };
+  if (has_ended_) return std::nullopt;
+  for (; next_ <= frame.number && !has_ended_; ++next_) has_ended_ = !capture_->grab();
+  if (has_ended_) return skip("cannot be read, and none after it");
+  cv::Mat picture;
+  if (!capture_->retrieve(picture) || picture.type() != CV_8UC3) return skip("cannot be read");
+  if (size_.empty()) size_ = picture.size();
+  if (picture.size() != size_) return skip("is of another size than those before it");
+  return cv::Mat3b(picture.clone());
 }
 
 }  // namespace lcs::replay

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "tools/files/csv.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
 
@@ -21,25 +21,13 @@ constexpr double kTolerance = 1e-2;
 /// Farther from the origin, a position has no precise digits left.
 constexpr double kFarthest_m = 1e9;
 
-bool is_place(const Eigen::Vector3d& p) {
+bool is_place(const Vector3d& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthest_m;
 }
 
 /// The places of t x y z qx qy qz qw in a row.
 using Places = std::array<std::size_t, 8>;
 constexpr Places kTumPlaces{0, 1, 2, 3, 4, 5, 6, 7};
-
-std::optional<std::vector<double>> numbers_in(const TextTable::Row& row, std::size_t first,
-                                              std::size_t count) {
-  std::vector<double> numbers;
-  if (row.fields.size() != first + count) return std::nullopt;
-  for (std::size_t i = first; i < row.fields.size(); ++i) {
-    const auto number = bench::number_in<double>(row.fields[i]);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
 
 std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const Places& at,
                                                std::int64_t unit_ns) {
@@ -50,7 +38,7 @@ std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const 
     if (!number) return std::nullopt;
     n[i] = *number;
   }
-  const Eigen::Vector3d p(n[0], n[1], n[2]);
+  const Vector3d p(n[0], n[1], n[2]);
   const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
   if (!t_ns || !is_place(p) || !(std::abs(q.norm() - 1) <= kTolerance)) return std::nullopt;
   return PosesFile::Line{t_ns, {}, {q.normalized().toRotationMatrix(), p}};
@@ -59,7 +47,7 @@ std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const 
 /// \param first place of a matrix of 12 or 16 numbers; the number of the picture is before it.
 std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_t first,
                                            std::size_t count) {
-  const auto n = numbers_in(row, first, count);
+  const auto n = TextTable::numbers(row, first, count);
   if (!n) return std::nullopt;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(n->data());
   const auto R = rotation_of(rows.leftCols<3>());
@@ -103,7 +91,7 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
   const PosesFile::Line* before = nullptr;
   for (std::size_t i = 0; i < poses.lines.size(); ++i) {
     const auto& line = poses.lines[i];
-    Eigen::Vector3d v_mps;
+    Vector3d v_mps;
     bool is_whole = line.has_value();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto number = bench::number_in<double>(TextTable::field(table.rows[i], *column + axis));
@@ -121,11 +109,10 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
       (by_places_m < kFactor * by_velocities_m && by_velocities_m < kFactor * by_places_m)) {
     return;
   }
-  throw input::Error(
-      {table.file.string(), 0},
-      fmt::format("its positions move by {:.3g} m in all, and its velocities by {:.3g} m; correct "
-                  "one of the two, or give other poses",
-                  by_places_m, by_velocities_m));
+  throw input::Error({table.file.string(), 0},
+                     "its positions move by {:.3g} m in all, and its velocities by {:.3g} m; "
+                     "correct one of the two, or give other poses",
+                     by_places_m, by_velocities_m);
 }
 
 }  // namespace
@@ -137,8 +124,7 @@ std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
   return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }
 
-PosesFile read_poses(const std::filesystem::path& file, const std::string& time_unit,
-                     Tally& tally) {
+PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& tally) {
   const TextTable table = read_table(file);
   const auto refuse = [&](int line, const std::string& why) {
     throw input::Error({file.string(), line}, why);
@@ -152,17 +138,16 @@ PosesFile read_poses(const std::filesystem::path& file, const std::string& time_
   poses.timed = named || fields == kTumFields;
   poses.numbered = !poses.timed && fields == kMatrix + 1;
   if (!poses.timed && fields != kRows && fields != kMatrix && fields != kMatrix + 1) {
-    refuse(
-        first.line,
-        fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of a "
-                    "matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, or "
-                    "a header with time, x, y, z, qx, qy, qz, qw",
-                    fields));
+    refuse(first.line,
+           fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
+                       "a matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, "
+                       "or a header with time, x, y, z, qx, qy, qz, qw",
+                       fields));
   }
   if (!named && fields == kTumFields && table.separator == ',') {
     refuse(first.line,
-           "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, w "
-           "last; give it a header, as time, x, y, z, qx, qy, qz, qw");
+           "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, w last; give "
+           "it a header, as time, x, y, z, qx, qy, qz, qw");
   }
   constexpr double kSlowest_hz = 0.6, kFastest_hz = 590;
   std::int64_t unit_ns = kSecond_ns;
@@ -189,9 +174,8 @@ PosesFile read_poses(const std::filesystem::path& file, const std::string& time_
                      "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
 }
 
-std::optional<Eigen::Vector3d> up_of_world(const scenario::Recorded& asked,
-                                           const sim::Pose& T_WC_first,
-                                           const std::optional<Eigen::Vector3d>& otherwise) {
+std::optional<Vector3d> up_of_world(const scenario::Recorded& asked, const sim::Pose& T_WC_first,
+                                    const std::optional<Vector3d>& otherwise) {
   if (!asked.mount_rpy_rad) return otherwise;
   return T_WC_first.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
 }

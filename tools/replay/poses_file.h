@@ -32,15 +32,15 @@ struct PosesFile {
 /// time. Counts unreadable lines.
 /// \param time_unit s, ms, us or ns; "": as the header states it, or s (TUM), ns (EuRoC).
 /// \throws input::Error for a file that is unreadable, without a pose, or in another format.
-PosesFile read_poses(const std::filesystem::path& file, const std::string& time_unit, Tally& tally);
+PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& tally);
 
 /// A rotation close to a rounded rotation matrix; absent if it is no rotation.
 std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R);
 
 /// Up (against gravity) in the poses' world frame, from the given mounting of the camera on a
 /// vehicle that is upright at the first pose. \param otherwise result without a given mounting.
-std::optional<Eigen::Vector3d> up_of_world(const scenario::Recorded& asked,
+std::optional<Vector3d> up_of_world(const scenario::Recorded& asked,
                                            const sim::Pose& T_WC_first,
-                                           const std::optional<Eigen::Vector3d>& otherwise);
+                                           const std::optional<Vector3d>& otherwise);
 
 }  // namespace lcs::replay

@@ -6,14 +6,13 @@
 #include <stdexcept>
 
 #include "tools/input/inputs_read.h"
-#include "tools/replay/in_order.h"
 #include "tools/replay/picture_names.h"
+#include "tools/replay/times.h"
 
 namespace lcs::replay {
 
 void Tally::add(const std::string& what, const std::string& example, int count) {
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [&](const Entry& entry) { return entry.what == what; });
+  const auto found = std::ranges::find(entries_, what, &Entry::what);
   if (found == entries_.end()) {
     entries_.push_back({what, example, count});
   } else {
@@ -70,17 +69,16 @@ const Layout& layout_of(const scenario::Recorded& asked) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
   throw input::Error(asked.source,
-                     fmt::format("{} holds no pictures, and is none of the other layouts that are "
-                                 "known ({}); tools/replay/README.md says what each holds",
-                                 asked.path.string(), names));
+                     "{} holds no pictures, and is none of the other layouts that are known ({}); "
+                     "tools/replay/README.md says what each holds",
+                     asked.path.string(), names);
 }
 
 bool motion_is_asked(const scenario::Recorded& asked) {
   return asked.poses || asked.imu || asked.speed_mps;
 }
 
-void take_pictures(const std::filesystem::path& folder, const std::string& time_unit,
-                   Recorded& recorded) {
+void take_pictures(const fs::path& folder, const std::string& time_unit, Recorded& recorded) {
   OrderedPictures pictures = in_order(pictures_in(folder), time_unit);
   recorded.timed = !pictures.t_ns.empty();
   recorded.frames.clear();
@@ -91,8 +89,22 @@ void take_pictures(const std::filesystem::path& folder, const std::string& time_
   if (recorded.timed) put_in_order(recorded.frames, folder, recorded.tally);
 }
 
-void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
-                  Tally& tally) {
+void take_list(const TextTable& list, std::int64_t unit_ns,
+               const std::function<fs::path(const TextTable::Row&)>& picture_of,
+               Recorded& recorded) {
+  for (std::size_t i = 0; i < list.rows.size(); ++i) {
+    const auto t_ns = time_in(list.rows[i].fields.front(), unit_ns);
+    const fs::path picture = picture_of(list.rows[i]);
+    if (t_ns && !picture.empty()) {
+      recorded.frames.push_back({*t_ns, picture, i});
+    } else {
+      recorded.tally.add("rows cannot be read and are left out", list.at(list.rows[i]));
+    }
+  }
+  put_in_order(recorded.frames, list.file, recorded.tally);
+}
+
+void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tally& tally) {
   sort_by_time(frames, "pictures", list.string(), tally);
   if (frames.empty()) {
     throw input::Error({list.string(), 0},
@@ -106,7 +118,7 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
   const auto is_outside = [&](const RecordedFrame& frame) {
     return frame.t_ns < first_ns || frame.t_ns > last_ns;
   };
-  const auto first = std::find_if(frames.begin(), frames.end(), is_outside);
+  const auto first = std::ranges::find_if(frames, is_outside);
   if (first == frames.end()) return;
   const std::string example = first->name();
   const auto count = std::erase_if(frames, is_outside);

@@ -2,9 +2,14 @@
 /// A recorded sequence in any layout, as input of `Playback`.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,9 +20,40 @@
 #include "sim/events/event.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/motion_source.h"
-#include "tools/replay/picture_reader.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
+
+/// The properties that the pictures of a recording have in common.
+struct PictureFormat {
+  cv::Size size_px;             ///< empty: that of the first picture
+  int bits = 16;                ///< in use where a picture has 16
+  std::optional<int> demosaic;  ///< OpenCV's colour conversion of raw pictures, with one channel
+};
+
+/// OpenCV's conversion for a pattern, from the top left pixel on: rggb, bggr, grbg or gbrg.
+int demosaic_of(const std::string& pattern);
+
+/// Reads pictures of one size from files.
+class PictureReader {
+ public:
+  explicit PictureReader(const PictureFormat& format) : format_(format) {}
+
+  /// \return the BGR picture, of 8 bits; absent if the file is missing, unreadable or of another
+  /// size. `skipped` then gives the reason.
+  std::optional<cv::Mat3b> read(const std::filesystem::path& file);
+
+  /// One line for each skipped picture.
+  const std::vector<std::string>& skipped() const { return skipped_; }
+
+ private:
+  PictureFormat format_;
+  std::vector<std::string> skipped_;
+};
+
+/// The most frequent size of some of the files, spread over all, and the least of 8, 10, 12, 14 and
+/// 16 bits that their values keep to; the size is empty if none can be read.
+PictureFormat common_format(const std::vector<std::filesystem::path>& files);
 
 /// Counts the faults that a reader met; they are reported at the end.
 class Tally {
@@ -39,13 +75,31 @@ class Tally {
   std::vector<std::string> told_;
 };
 
+/// Sorts items by `t_ns`, and removes all but the first of those with the same time; counts both in
+/// `tally`. \param plural of the items, as "poses". \param source name of the table.
+template <class Timed>
+void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& source,
+                  Tally& tally) {
+  const auto earlier = [](const Timed& a, const Timed& b) { return a.t_ns < b.t_ns; };
+  const auto same = [](const Timed& a, const Timed& b) { return a.t_ns == b.t_ns; };
+  if (!std::ranges::is_sorted(items, earlier)) {
+    tally.add("tables are not in the order of time and are sorted", source);
+    std::ranges::stable_sort(items, earlier);
+  }
+  const auto twice = std::unique(items.begin(), items.end(), same);
+  if (twice == items.end()) return;
+  tally.add(plural + " have the time of another one and are left out",
+            fmt::format("at {} ns", twice->t_ns), static_cast<int>(items.end() - twice));
+  items.erase(twice, items.end());
+}
+
 using sim::Lens;
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;
-  std::filesystem::path picture;  ///< empty: in the video
-  std::size_t number = 0;         ///< index among all pictures of the recording, from 0
-  std::size_t events = 0;         ///< number of the recording's events up to its time
+  fs::path picture;        ///< empty: in the video
+  std::size_t number = 0;  ///< index among all pictures of the recording, from 0
+  std::size_t events = 0;  ///< number of the recording's events up to its time
 
   std::string name() const;  ///< for people: the file's, or "picture 7"
 };
@@ -58,7 +112,7 @@ struct Recorded {
   bool took_time_offset = false;   ///< `take_time_offset` was called
   std::optional<double> fps;       ///< of an untimed recording, if the layout has it
   std::vector<sim::Event> events;  ///< by time, with the clock of the layout
-  std::filesystem::path video;     ///< contains the pictures; empty: they are files
+  fs::path video;                  ///< contains the pictures; empty: they are files
   std::optional<Lens> lens;        ///< absent: the layout has no calibration
   std::optional<sim::Pose> T_BC;   ///< of the camera on the body, if the layout states it
   PictureFormat format;            ///< of the files
@@ -78,15 +132,20 @@ struct Recorded {
   std::shared_ptr<void> keep = {};  ///< files that are read from, and removed with the recording
 };
 
+/// Whether a path holds a recording of a layout.
+using Fits = bool(const fs::path& path);
+
+/// Reads the layout's own data, except where the user overrides it.
+/// \param exact_motion take the motion from the truth, not the IMU, if both are present.
+/// \throws std::runtime_error with file and line.
+using Read = Recorded(const scenario::Recorded& asked, bool exact_motion);
+
 /// A layout of a recording on disk.
 struct Layout {
   std::string_view name;
   std::string_view purpose;  ///< one readable line
-  bool (*fits)(const std::filesystem::path& path);
-  /// Reads the layout's own data, except where the user overrides it.
-  /// \param exact_motion take the motion from the truth, not the IMU, if both are present.
-  /// \throws std::runtime_error with file and line.
-  Recorded (*read)(const scenario::Recorded& asked, bool exact_motion);
+  Fits* fits;
+  Read* read;
 };
 
 /// All layouts, in the order in which they are tried.
@@ -106,32 +165,10 @@ bool motion_is_asked(const scenario::Recorded& asked);
 
 /// \name The readers.
 ///@{
-bool is_euroc(const std::filesystem::path& folder);
-Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion);
-bool is_kitti(const std::filesystem::path& folder);
-Recorded read_kitti(const scenario::Recorded& asked, bool exact_motion);
-bool is_kitti_odometry(const std::filesystem::path& folder);
-Recorded read_kitti_odometry(const scenario::Recorded& asked, bool exact_motion);
-bool is_robotcar(const std::filesystem::path& folder);
-Recorded read_robotcar(const scenario::Recorded& asked, bool exact_motion);
-bool is_tum_rgbd(const std::filesystem::path& folder);
-Recorded read_tum_rgbd(const scenario::Recorded& asked, bool exact_motion);
-bool is_rpg_events(const std::filesystem::path& folder);
-Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion);
-bool is_mot(const std::filesystem::path& folder);
-Recorded read_mot(const scenario::Recorded& asked, bool exact_motion);
-bool is_kitti_tracking(const std::filesystem::path& folder);
-Recorded read_kitti_tracking(const scenario::Recorded& asked, bool exact_motion);
-bool is_kitti_360(const std::filesystem::path& folder);
-Recorded read_kitti_360(const scenario::Recorded& asked, bool exact_motion);
-bool is_listed(const std::filesystem::path& folder);
-Recorded read_listed(const scenario::Recorded& asked, bool exact_motion);
-bool is_bag(const std::filesystem::path& path);
-Recorded read_bag(const scenario::Recorded& asked, bool exact_motion);
-bool is_video(const std::filesystem::path& file);
-Recorded read_video(const scenario::Recorded& asked, bool exact_motion);
-bool is_pictures(const std::filesystem::path& folder);
-Recorded read_pictures(const scenario::Recorded& asked, bool exact_motion);
+Fits is_euroc, is_kitti, is_kitti_odometry, is_robotcar, is_tum_rgbd, is_rpg_events, is_mot,
+    is_kitti_tracking, is_kitti_360, is_listed, is_bag, is_video, is_pictures;
+Read read_euroc, read_kitti, read_kitti_odometry, read_robotcar, read_tum_rgbd, read_rpg_events,
+    read_mot, read_kitti_tracking, read_kitti_360, read_listed, read_bag, read_video, read_pictures;
 ///@}
 
 /// Sets the frames' times to those of the IMU's clock, by `asked.time_offset_s` or else the
@@ -144,15 +181,27 @@ void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded);
 /// Gives the pictures times at a constant rate, beginning at 0.
 void time_by(double fps, Recorded& recorded);
 
+/// Gives each frame the time that a table has for it. If a column holds names of the pictures, a
+/// row belongs to the picture of its name, else row k to frame k. The times are in the column that
+/// the header calls so, else in the first one that holds neither names nor counts 0, 1, 2, ...
+/// Frames without a row are left out and counted.
+/// \param time_unit s, ms, us or ns; "": as the table states it, or as a camera's rate needs it.
+/// \throws input::Error if the table has no such column, or another length than there are frames.
+void time_by_table(const fs::path& file, const std::string& time_unit, Recorded& recorded);
+
 /// Sets the frames to the pictures of a folder in the order of the numbers in their names, with the
 /// times that the names state, if they do.
-void take_pictures(const std::filesystem::path& folder, const std::string& time_unit,
-                   Recorded& recorded);
+void take_pictures(const fs::path& folder, const std::string& time_unit, Recorded& recorded);
+
+/// Sets the frames to the rows of a list: the first field is the time, and `picture_of` gives the
+/// picture, or "" for a row without one. Rows that cannot be read are counted.
+void take_list(const TextTable& list, std::int64_t unit_ns,
+               const std::function<fs::path(const TextTable::Row&)>& picture_of,
+               Recorded& recorded);
 
 /// Sorts frames by time, and removes all but the first of those with the same time; counts both.
 /// \param list file of the frames. \throws input::Error if it has none.
-void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
-                  Tally& tally);
+void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tally& tally);
 
 /// Removes frames outside a time span, and counts them.
 /// \throws std::runtime_error if none is left.
@@ -167,13 +216,21 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
 
 /// Sets the motion from a layout's file of poses with their times. \param up_W of its world frame.
 /// \throws input::Error for unreadable poses, and for those without times.
-void move_by_timed_poses(const scenario::Recorded& asked, const std::filesystem::path& file,
-                         const Eigen::Vector3d& up_W, Recorded& recorded);
+void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
+                         const Vector3d& up_W, Recorded& recorded);
+
+/// Sets the motion along the camera's poses, and removes frames outside their time span.
+/// \param level up (against gravity) in their world frame, if known and no mount is given.
+/// \param file of the poses. \param outside what is told of the frames outside.
+/// \throws input::Error if there is no pose.
+void move_along(std::vector<SensorReadings::CameraPose> poses, const std::optional<Vector3d>& level,
+                const scenario::Recorded& asked, const fs::path& file, const char* outside,
+                Recorded& recorded);
 
 /// Sets the motion from readings of an IMU, whose axes are those of the vehicle, which starts
 /// upright; or any, if `asked.calibration` states the camera's place on it.
 /// \param file of the readings, for messages.
-void move_by_readings(const scenario::Recorded& asked, const std::filesystem::path& file,
+void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
                       SensorReadings readings, Recorded& recorded);
 
 /// Sets the motion from a navigation unit's states: sorts them, removes duplicate times, and

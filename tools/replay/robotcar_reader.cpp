@@ -3,21 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tools/files/csv.h"
-#include "tools/replay/navigation.h"
+#include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
-using Eigen::Vector3d;
 
 struct CameraKind {
   const char* name;
@@ -37,10 +33,9 @@ fs::path list_of(const fs::path& folder, const CameraKind& camera) {
 }
 
 const CameraKind* first_camera(const fs::path& folder) {
-  const auto found =
-      std::find_if(std::begin(kCameras), std::end(kCameras), [&](const CameraKind& camera) {
-        return fs::is_directory(folder / camera.name) && fs::exists(list_of(folder, camera));
-      });
+  const auto found = std::ranges::find_if(kCameras, [&](const CameraKind& camera) {
+    return fs::is_directory(folder / camera.name) && fs::exists(list_of(folder, camera));
+  });
   return found == std::end(kCameras) ? nullptr : found;
 }
 
@@ -48,20 +43,16 @@ const CameraKind& camera_of(const scenario::Recorded& asked) {
   if (asked.camera.empty()) {
     if (const CameraKind* first = first_camera(asked.path)) return *first;
     throw std::runtime_error(
-        fmt::format("{} has no camera with its list of pictures; give one, as stereo/centre "
-                    "with stereo.timestamps",
+        fmt::format("{} has no camera with its list of pictures; give one, as stereo/centre with "
+                    "stereo.timestamps",
                     asked.path.string()));
   }
-  const auto found =
-      std::find_if(std::begin(kCameras), std::end(kCameras),
-                   [&](const CameraKind& each) { return each.name == asked.camera; });
+  const auto found = std::ranges::find(kCameras, asked.camera, &CameraKind::name);
   if (found == std::end(kCameras)) {
-    throw input::Error(
-        asked.source,
-        fmt::format("the camera is '{}'; give stereo/left, stereo/centre, stereo/right, "
-                    "mono_left, mono_right or "
-                    "mono_rear",
-                    asked.camera));
+    throw input::Error(asked.source,
+                       "the camera is '{}'; give stereo/left, stereo/centre, stereo/right, "
+                       "mono_left, mono_right or mono_rear",
+                       asked.camera);
   }
   return *found;
 }
@@ -99,8 +90,7 @@ std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
     }
-    const Eigen::Matrix3d R_ned_frd =
-        from_rpy(numbers[3], numbers[4], numbers[5]).toRotationMatrix();
+    const Eigen::Matrix3d R_ned_frd = sim::rotation_of_rpy({numbers[3], numbers[4], numbers[5]});
     states.push_back({*t_ns, Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu),
                       R_enu_ned * Vector3d(numbers[0], numbers[1], numbers[2])});
   }
@@ -117,17 +107,10 @@ Recorded read_robotcar(const scenario::Recorded& asked, bool) {
   const CameraKind& camera = camera_of(asked);
   Recorded recorded;
   recorded.format.demosaic = camera.demosaic;
-  const TextTable list = read_table(list_of(asked.path, camera));
-  for (const TextTable::Row& row : list.rows) {
-    if (const auto t_ns = time_in(row.fields[0], kMicrosecond_ns)) {
-      const auto place = static_cast<std::size_t>(&row - list.rows.data());
-      recorded.frames.push_back(
-          {*t_ns, asked.path / camera.name / (row.fields[0] + ".png"), place});
-    } else {
-      recorded.tally.add("rows cannot be read and are left out", list.at(row));
-    }
-  }
-  put_in_order(recorded.frames, list.file, recorded.tally);
+  const auto picture = [&](const TextTable::Row& row) {
+    return asked.path / camera.name / (row.fields[0] + ".png");
+  };
+  take_list(read_table(list_of(asked.path, camera)), kMicrosecond_ns, picture, recorded);
   if (motion_is_asked(asked)) return recorded;
   if (!camera.looks_ahead && !asked.mount_rpy_rad) {
     recorded.lacks.push_back(

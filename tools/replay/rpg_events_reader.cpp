@@ -16,8 +16,6 @@
 namespace lcs::replay {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kEvents = "events.txt";
 constexpr const char* kPictures = "images.txt";
 
@@ -55,19 +53,10 @@ std::vector<sim::Event> read_events(const fs::path& path, Tally& tally) {
   return events;
 }
 
-/// The numbers of a row; absent unless it has so many.
-std::optional<std::vector<double>> numbers_in(const TextTable::Row& row, std::size_t count) {
-  std::vector<double> numbers;
-  for (const std::string& field : row.fields) {
-    if (const auto number = bench::number_in<double>(field)) numbers.push_back(*number);
-  }
-  if (numbers.size() != count || row.fields.size() != count) return std::nullopt;
-  return numbers;
-}
-
 Lens read_lens(const fs::path& file) {
   const TextTable table = read_table(file);
-  const auto numbers = table.rows.size() == 1 ? numbers_in(table.rows[0], 9) : std::nullopt;
+  const auto numbers =
+      table.rows.size() == 1 ? TextTable::numbers(table.rows[0], 0, 9) : std::nullopt;
   if (!numbers)
     throw input::Error({file.string(), 0}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
   const std::vector<double>& n = *numbers;
@@ -86,7 +75,7 @@ std::vector<sim::ImuSample> read_imu(const fs::path& file, Tally& tally) {
   const TextTable table = read_table(file);
   std::vector<sim::ImuSample> samples;
   for (const TextTable::Row& row : table.rows) {
-    const auto n = numbers_in(row, 7);
+    const auto n = TextTable::numbers(row, 0, 7);
     const auto t_ns = time_in(row.fields.front(), kSecond_ns);
     if (!n || !t_ns) {
       tally.add("rows cannot be read and are left out", table.at(row));
@@ -110,17 +99,10 @@ bool is_rpg_events(const fs::path& folder) {
 /// `asked.calibration` states it, else that of the truth.
 Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
   Recorded recorded;
-  const TextTable list = read_table(asked.path / kPictures);
-  for (const TextTable::Row& row : list.rows) {
-    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
-    if (!t_ns || row.fields.size() != 2) {
-      recorded.tally.add("rows cannot be read and are left out", list.at(row));
-      continue;
-    }
-    const auto place = static_cast<std::size_t>(&row - list.rows.data());
-    recorded.frames.push_back({*t_ns, asked.path / row.fields[1], place});
-  }
-  put_in_order(recorded.frames, list.file, recorded.tally);
+  const auto picture = [&](const TextTable::Row& row) {
+    return row.fields.size() == 2 ? asked.path / row.fields[1] : fs::path();
+  };
+  take_list(read_table(asked.path / kPictures), kSecond_ns, picture, recorded);
   recorded.events = read_events(asked.path / kEvents, recorded.tally);
   for (RecordedFrame& frame : recorded.frames) {
     const auto end = std::ranges::upper_bound(recorded.events, frame.t_ns, {}, &sim::Event::t_ns);
@@ -137,7 +119,7 @@ Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
     readings.imu = read_imu(imu, recorded.tally);
     move_by_readings(asked, imu, std::move(readings), recorded);
   } else if (fs::exists(truth)) {
-    move_by_timed_poses(asked, truth, Eigen::Vector3d::UnitZ(), recorded);
+    move_by_timed_poses(asked, truth, Vector3d::UnitZ(), recorded);
   }
   return recorded;
 }

@@ -9,7 +9,6 @@
 #include <functional>
 #include <initializer_list>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -17,15 +16,12 @@
 
 #include "filter/ego_motion/imu_watch.h"
 #include "tools/files/csv.h"
-#include "tools/replay/in_order.h"
-#include "tools/replay/navigation.h"
-#include "tools/replay/times.h"
+#include "tools/replay/motion_source.h"
+#include "tools/replay/recorded.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double kStandardGravity_mps2 = 9.80665;
 
@@ -77,9 +73,8 @@ std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
 
 /// \param names of columns in a header; without one they follow the time in this order.
 /// \param last name of an optional further column.
-std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
-                                    std::span<const char* const> names, const TableTimes& times,
-                                    Tally& tally,
+std::vector<NumberRow> read_numbers(const fs::path& file, std::span<const char* const> names,
+                                    const TableTimes& times, Tally& tally,
                                     std::optional<std::string_view> last = std::nullopt) {
   const TextTable table = read_table(file);
   std::vector<std::size_t> columns;
@@ -128,8 +123,7 @@ std::optional<std::size_t> place_of(const std::string& name) {
   if (axis < 'x' || axis > 'z') return std::nullopt;
   words.back().pop_back();
   const auto any = [&](const std::set<std::string>& of) {
-    return std::any_of(words.begin(), words.end(),
-                       [&](const std::string& word) { return of.contains(word); });
+    return std::ranges::any_of(words, [&](const std::string& word) { return of.contains(word); });
   };
   if (any(kOthers) || any(kRates) == any(kForces)) return std::nullopt;
   return static_cast<std::size_t>(axis - 'x') + (any(kForces) ? 3 : 0);
@@ -144,10 +138,8 @@ double factor_of(const TextTable& table, std::size_t column, bool is_rate) {
   if (is_rate && has("rad")) return 1;
   if (!is_rate && (has("m/s") || has("m s") || has("m*s"))) return 1;
   if (!is_rate && (unit == "g" || unit == "G")) return kStandardGravity_mps2;
-  throw input::Error(
-      {table.file.string(), 1},
-      fmt::format("the unit '{}' of {} is not known; give {}", unit, table.header[column].name,
-                  is_rate ? "rad/s or deg/s" : "m/s^2 or g"));
+  throw input::Error({table.file.string(), 1}, "the unit '{}' of {} is not known; give {}", unit,
+                     table.header[column].name, is_rate ? "rad/s or deg/s" : "m/s^2 or g");
 }
 
 struct ImuColumns {
@@ -161,8 +153,7 @@ TimeColumn find_time(const TextTable& table, const TableTimes& times, Tally& tal
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < table.header.size() && !found; ++i) {
       const std::vector<std::string> own = words_in(table.header[i].name);
-      const bool ends =
-          !own.empty() && std::find(words.begin(), words.end(), own.back()) != words.end();
+      const bool ends = !own.empty() && std::ranges::find(words, own.back()) != words.end();
       if (ends) found = i;
     }
     return found;
@@ -195,7 +186,7 @@ ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& 
     columns.places[*place] = i;
     columns.factors[*place] = factor_of(table, i, *place < 3);
   }
-  if (!std::all_of(is_found.begin(), is_found.end(), [](bool found) { return found; })) {
+  if (!std::ranges::all_of(is_found, [](bool found) { return found; })) {
     refuse("the header does not name three angular rates and three accelerations");
   }
   return columns;
@@ -231,8 +222,7 @@ double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor)
 
 /// Refuses readings that no IMU on a camera has. Gravity dominates an accelerometer's readings, at
 /// rest and in motion; no camera turns at 10 rad/s for long.
-void require_possible(const std::vector<sim::ImuSample>& samples,
-                      const std::filesystem::path& file) {
+void require_possible(const std::vector<sim::ImuSample>& samples, const fs::path& file) {
   constexpr double kLeast_mps2 = 6, kMost_mps2 = 25, kFastTurn_radps = 10, kShare = 0.05;
   constexpr double kTilted_rad = 0.25, kBetter = 0.25, kDegree = std::numbers::pi / 180;
   const auto refuse = [&](const std::string& why) { throw input::Error({file.string(), 0}, why); };
@@ -248,33 +238,30 @@ void require_possible(const std::vector<sim::ImuSample>& samples,
   const double usual_mps2 = *usual(std::move(forces));
   if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual_mps2 < kLeast_mps2) {
     refuse(
-        fmt::format("its angular rates have a size of {:.2f} and its accelerations of {:.2f}: "
-                    "the two seem interchanged; name the columns in a header",
+        fmt::format("its angular rates have a size of {:.2f} and its accelerations of {:.2f}: the "
+                    "two seem interchanged; name the columns in a header",
                     usual_radps, usual_mps2));
   }
   if (usual_mps2 >= ImuWatch::kLeast_g && usual_mps2 <= ImuWatch::kMost_g) {
-    refuse(
-        fmt::format("accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
-                    "to have m/s^2 (and see whether rates are in rad/s), or put their unit into "
-                    "the header, as a_RS_S_x [g]",
-                    usual_mps2));
+    refuse(fmt::format(
+        "accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 to have m/s^2 "
+        "(and see whether rates are in rad/s), or put their unit into the header, as a_RS_S_x [g]",
+        usual_mps2));
   }
   if (usual_mps2 < kLeast_mps2 || usual_mps2 > kMost_mps2) {
-    refuse(
-        fmt::format("accelerations have a size of {:.3g}, and those of an IMU have that of "
-                    "gravity, 9.81 m/s^2; give what the accelerometer measures, gravity "
-                    "included, in m/s^2",
-                    usual_mps2));
+    refuse(fmt::format(
+        "accelerations have a size of {:.3g}, and those of an IMU have that of gravity, 9.81 "
+        "m/s^2; give what the accelerometer measures, gravity included, in m/s^2",
+        usual_mps2));
   }
   const double tilt_rad = tilt_error_rad(samples, 1);
   const bool is_tilted =
       tilt_rad > kTilted_rad && tilt_error_rad(samples, kDegree) < kBetter * tilt_rad;
   if (often_radps > kFastTurn_radps || is_tilted) {
-    refuse(
-        fmt::format("its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no "
-                    "camera does for long{}; if they are in deg/s, put that into the header, as "
-                    "w_RS_S_x [deg/s]",
-                    often_radps, is_tilted ? ", and contradict the accelerometer" : ""));
+    refuse(fmt::format(
+        "its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no camera does "
+        "for long{}; if they are in deg/s, put that into the header, as w_RS_S_x [deg/s]",
+        often_radps, is_tilted ? ", and contradict the accelerometer" : ""));
   }
 }
 
@@ -284,8 +271,8 @@ constexpr std::array<const char*, 16> kTruthNames{
     "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
 
 /// The quaternion behind the place; absent, and counted, if it is not of length 1.
-std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row,
-                                              const std::filesystem::path& file, Tally& tally) {
+std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row, const fs::path& file,
+                                              Tally& tally) {
   constexpr double kUnit = 1e-2;  // largest error in the length of a rounded quaternion
   const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
   if (std::abs(q.norm() - 1) <= kUnit) return q.normalized();
@@ -295,15 +282,14 @@ std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row,
 
 }  // namespace
 
-std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, const TableTimes& times,
+std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes& times,
                                          Tally& tally) {
   const TextTable table = read_table(file);
   const ImuColumns columns = find_columns(table, times, tally);
   std::vector<sim::ImuSample> samples;
   for (const NumberRow& row : rows_of(table, columns.time, columns.places, {}, tally)) {
     std::array<double, 6> n{};
-    std::transform(row.numbers.begin(), row.numbers.end(), columns.factors.begin(), n.begin(),
-                   std::multiplies());
+    std::ranges::transform(row.numbers, columns.factors, n.begin(), std::multiplies());
     samples.push_back({row.t_ns, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
   }
   if (samples.empty()) {
@@ -314,8 +300,8 @@ std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, cons
   return samples;
 }
 
-std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file,
-                                                   const TableTimes& times, Tally& tally) {
+std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const TableTimes& times,
+                                                   Tally& tally) {
   static constexpr std::array<const char*, 3> kNames{"v_RB_B_x", "v_RB_B_y", "v_RB_B_z"};
   std::vector<sim::OdometrySample> samples;
   for (const NumberRow& row : read_numbers(file, kNames, times, tally, "w_RB_B_z")) {
@@ -325,14 +311,13 @@ std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& 
   return samples;
 }
 
-std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::path& file,
-                                                      Tally& tally) {
+std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tally& tally) {
   static constexpr std::array<const char*, 12> kNames{
       "R_00", "R_01", "R_02", "p_x", "R_10", "R_11", "R_12", "p_y", "R_20", "R_21", "R_22", "p_z"};
   std::vector<SensorReadings::CameraPose> poses;
   for (const NumberRow& row : read_numbers(file, kNames, {"ns", {}, {}}, tally)) {
     std::array<double, 16> matrix{};
-    std::copy(row.numbers.begin(), row.numbers.end(), matrix.begin());
+    std::ranges::copy(row.numbers, matrix.begin());
     matrix[15] = 1;
     try {
       poses.push_back({row.t_ns, sequence::pose_of(matrix)});
@@ -343,8 +328,7 @@ std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::pat
   return poses;
 }
 
-std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, const TableTimes& times,
-                                      Tally& tally) {
+std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& times, Tally& tally) {
   std::vector<TrueState> states;
   for (const NumberRow& row : read_numbers(file, kTruthNames, times, tally)) {
     if (!is_speed(row.numbers[7], row.numbers[8], row.numbers[9])) {
@@ -359,8 +343,8 @@ std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, const T
   return states;
 }
 
-std::vector<TrueState> read_body_poses_csv(const std::filesystem::path& file,
-                                           const TableTimes& times, Tally& tally) {
+std::vector<TrueState> read_body_poses_csv(const fs::path& file, const TableTimes& times,
+                                           Tally& tally) {
   constexpr std::size_t kNumbers = 7;
   constexpr std::int64_t kHalfSpan_ns = 25'000'000;  // longer than the noise of a marker's place
   std::vector<TrueState> states;
@@ -381,8 +365,7 @@ std::vector<TrueState> read_body_poses_csv(const std::filesystem::path& file,
   }
   if (!states.empty()) {
     tally.add(
-        "truths have poses alone: velocities are their differences, the IMU's biases count as "
-        "0",
+        "truths have poses alone: velocities are their differences, the IMU's biases count as 0",
         file.string());
   }
   return states;

@@ -32,30 +32,28 @@ struct TableTimes {
 /// units in the header; without a header: time, angular rates in rad/s, accelerations in m/s^2.
 /// \throws input::Error if the file is unreadable, has no reading, or has readings that no IMU can
 /// have: rates in deg/s, accelerations in g or without gravity, the two interchanged.
-std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, const TableTimes& times,
+std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes& times,
                                          Tally& tally);
 
 /// Yaw rates are in an optional fifth column.
-std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file,
-                                                   const TableTimes& times, Tally& tally);
+std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const TableTimes& times,
+                                                   Tally& tally);
 
 /// Exact poses of the camera, as written by `lcs generate`.
-std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::path& file,
-                                                      Tally& tally);
+std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tally& tally);
 
 /// State of the body, with the biases of its IMU.
 struct TrueState {
   std::int64_t t_ns = 0;
   NavigationState state;
-  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
+  Vector3d gyro_bias_radps = Vector3d::Zero();
+  Vector3d accel_bias_mps2 = Vector3d::Zero();
 };
-std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, const TableTimes& times,
-                                      Tally& tally);
+std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& times, Tally& tally);
 /// As above, from poses alone (columns of EuRoC up to q_RS_z): velocities are their differences,
 /// biases are 0; both is told.
-std::vector<TrueState> read_body_poses_csv(const std::filesystem::path& file,
-                                           const TableTimes& times, Tally& tally);
+std::vector<TrueState> read_body_poses_csv(const fs::path& file, const TableTimes& times,
+                                           Tally& tally);
 
 /// Counts gaps between readings that exceed four of their usual periods.
 void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally);

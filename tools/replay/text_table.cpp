@@ -31,7 +31,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
     end = line.find(separator);
     fields.emplace_back(bench::trimmed(line.substr(0, end)));
     // Tables with semicolons come from countries that write 0,5.
-    if (separator == ';') std::replace(fields.back().begin(), fields.back().end(), ',', '.');
+    if (separator == ';') std::ranges::replace(fields.back(), ',', '.');
   }
   return fields;
 }
@@ -62,7 +62,7 @@ std::vector<TextTable::Column> columns_in(std::string_view line, char separator)
     TextTable::Column column{std::string(bench::trimmed(field.substr(0, unit))), ""};
     while (column.name.starts_with('#')) column.name = bench::trimmed(column.name.substr(1));
     if (unit != field.npos) column.unit = field.substr(unit + 1, end - unit - 1);
-    std::replace(column.unit.begin(), column.unit.end(), '~', ' ');
+    std::ranges::replace(column.unit, '~', ' ');
     columns.push_back(column);
   }
   return columns;
@@ -83,9 +83,20 @@ std::string_view TextTable::field(const Row& row, std::size_t column) {
   return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
 }
 
+std::optional<std::vector<double>> TextTable::numbers(const Row& row, std::size_t first,
+                                                      std::size_t count) {
+  std::vector<double> numbers;
+  if (row.fields.size() != first + count) return std::nullopt;
+  for (std::size_t i = first; i < row.fields.size(); ++i) {
+    const auto number = bench::number_in<double>(row.fields[i]);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::optional<std::size_t> TextTable::find(std::string_view name) const {
-  const auto found = std::find_if(header.begin(), header.end(),
-                                  [&](const Column& column) { return column.name == name; });
+  const auto found = std::ranges::find(header, name, &Column::name);
   if (found == header.end()) return std::nullopt;
   return static_cast<std::size_t>(found - header.begin());
 }
@@ -94,8 +105,8 @@ std::optional<std::size_t> TextTable::time_column() const {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < header.size(); ++i) {
     std::string name = header[i].name;
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool is_stamp = name.ends_with("header.stamp");
     const bool is_time =
         is_stamp || name.find("time") != name.npos || name == "t" || name.starts_with("stamp");
@@ -108,13 +119,12 @@ std::optional<std::size_t> TextTable::time_column() const {
 std::size_t TextTable::column(std::string_view name, std::size_t otherwise) const {
   if (header.empty()) return otherwise;
   if (const auto found = find(name)) return *found;
-  throw input::Error({file.string(), 1},
-                     fmt::format("the header names no column {}; give each column the name "
-                                 "that the layout has for it",
-                                 name));
+  throw input::Error(
+      {file.string(), 1},
+      "the header names no column {}; give each column the name that the layout has for it", name);
 }
 
-TextTable read_table(const std::filesystem::path& file) {
+TextTable read_table(const fs::path& file) {
   // An hour of a 1 kHz IMU takes 400 MB.
   constexpr input::FileKind kSensorTable{input::kGibibyte,
                                          "give a table of rows, as the layout has it"};

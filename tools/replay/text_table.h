@@ -2,7 +2,6 @@
 /// Text tables from other tools: any line ends, any of the usual separators, an optional header.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace lcs::replay {
+
+namespace fs = std::filesystem;
 
 struct TextTable {
   struct Column {
@@ -21,7 +22,7 @@ struct TextTable {
     std::vector<std::string> fields;
   };
 
-  std::filesystem::path file;
+  fs::path file;
   char separator = ' ';        ///< comma, semicolon, tab; ' ': any number of blanks
   std::vector<Column> header;  ///< empty if there is no header
   std::vector<Row> rows;
@@ -30,6 +31,9 @@ struct TextTable {
   std::string at(const Row& row) const;
   /// The field of a row; "" if the row is shorter.
   static std::string_view field(const Row& row, std::size_t column);
+  /// The fields of a row from `first` on; absent unless they are `count` numbers.
+  static std::optional<std::vector<double>> numbers(const Row& row, std::size_t first,
+                                                    std::size_t count);
 
   std::optional<std::size_t> find(std::string_view name) const;
   /// The column that the header calls a time: that of a ROS header's stamp, or the first one.
@@ -43,6 +47,6 @@ struct TextTable {
 /// first row of numbers has. Of the lines before that row the last one that has as many fields is
 /// the header; empty lines and further lines that begin with '#' are skipped.
 /// \throws input::Error if the file cannot be read.
-TextTable read_table(const std::filesystem::path& file);
+TextTable read_table(const fs::path& file);
 
 }  // namespace lcs::replay

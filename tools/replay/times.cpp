@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -174,21 +173,20 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
     }
     return unit_ns;
   };
-  const auto fitting = std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
-                                    [&](const TimeUnit& unit) { return fits(unit.ns); });
+  const auto fitting =
+      std::ranges::find_if(kTimeUnits, [&](const TimeUnit& unit) { return fits(unit.ns); });
   const std::string file = table.file.string();
   const std::string rate =
       expected.stated_hz ? fmt::format("{} states {:g} Hz", expected.stated_by, *expected.stated_hz)
                          : fmt::format("a sensor of its kind has {:g} to {:g} Hz",
                                        expected.least_hz, expected.most_hz);
   const auto contradict = [&](const std::string& by, std::int64_t unit_ns) {
-    throw input::Error(
-        {file, table.rows.front().line},
-        fmt::format("its times are {}, which gives {:.3g} rows a second, and {}; {}", by,
-                    rate_hz(unit_ns), rate,
-                    fitting == kTimeUnits.end()
-                        ? "correct one of the two"
-                        : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name)));
+    throw input::Error({file, table.rows.front().line},
+                       "its times are {}, which gives {:.3g} rows a second, and {}; {}", by,
+                       rate_hz(unit_ns), rate,
+                       fitting == kTimeUnits.end()
+                           ? "correct one of the two"
+                           : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name));
   };
   // The user's unit may be that of another table: then this one's own fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
@@ -201,11 +199,10 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   if (by_header) contradict("in " + stated + " by its header", *by_header);
   if (layouts && fits(*layouts)) return chosen(*layouts);
   if (fitting == kTimeUnits.end()) {
-    throw input::Error(
-        {file, table.rows.front().line},
-        fmt::format("no unit of time gives its rows the rate that they can have: {}; "
-                    "give time_unit (s, ms, us or ns)",
-                    rate));
+    throw input::Error({file, table.rows.front().line},
+                       "no unit of time gives its rows the rate that they can have: {}; give "
+                       "time_unit (s, ms, us or ns)",
+                       rate);
   }
   tally.add(
       "tables of times do not state their unit, and are read in the unit that fits their rate",

@@ -1,21 +1,24 @@
 #include "tools/report/page_writer.h"
 
 #include "tools/files/output_file.h"
-#include "tools/report/page_template.h"
 
 namespace lcs::report {
+
+// The files of this folder that every page needs, embedded in the program at build time.
+extern const std::string_view kPageHtml;  // has {{title}}, {{style}}, {{data}} and {{script}}
+extern const std::string_view kPageCss;
+extern const std::string_view kPlotJs;  // helpers for elements, numbers and plots
+// The plotting library uPlot, unmodified, and its licence.
+extern const std::string_view kUplotJs, kUplotCss, kUplotLicence;
+
 namespace {
 
 /// JSON with every "<" escaped, because "</script>" would end the enclosing element.
 std::string embeddable(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
+  for (const char c : json)
+    safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
   return safe;
 }
 
@@ -49,22 +52,11 @@ std::string html_of(const Page& page) {
 std::string escaped(std::string_view text) {
   std::string html;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
+    html += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+                       : std::string_view(&c, 1);
   }
   return html;
 }

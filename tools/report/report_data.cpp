@@ -1,4 +1,4 @@
-#include "tools/report/report_data.h"
+#include "tools/report/report_page.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "tools/files/json_node.h"
 #include "tools/input/input_file.h"
 #include "tools/output/video.h"
+#include "tools/report/page_writer.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/metrics.h"
@@ -25,6 +27,10 @@
 #include "tools/suite/summary.h"
 
 namespace lcs::report {
+
+/// `page.js` of this folder, embedded in the program: the script that lays out a suite's data.
+extern const std::string_view kReportJs;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,9 +170,8 @@ Json frames_of(const fs::path& file) {
   const std::vector<std::string_view> header = bench::fields_of(header_line);
   Json columns = Json::object();
   for (const char* name : kColumns) {
-    if (std::find(header.begin(), header.end(), name) == header.end()) {
-      throw input::Error({file.string(), 1},
-                         fmt::format("has no column {}; {}", name, kFramesTable.remedy));
+    if (std::ranges::find(header, name) == header.end()) {
+      throw input::Error({file.string(), 1}, "has no column {}; {}", name, kFramesTable.remedy);
     }
     columns[name] = Json::array();
   }
@@ -179,7 +184,7 @@ Json frames_of(const fs::path& file) {
       try {
         column->push_back(number_of(cells[i]));
       } catch (const std::invalid_argument& error) {
-        throw input::Error(input.here(), fmt::format("{}; {}", error.what(), kFramesTable.remedy));
+        throw input::Error(input.here(), "{}; {}", error.what(), kFramesTable.remedy);
       }
     }
   }
@@ -239,8 +244,8 @@ bool are_alike(const bench::Event& a, const bench::Event& b) {
 }
 
 bool has_like(const std::vector<bench::Event>& events, const bench::Event& event) {
-  return std::any_of(events.begin(), events.end(),
-                     [&](const bench::Event& other) { return are_alike(event, other); });
+  return std::ranges::any_of(events,
+                             [&](const bench::Event& other) { return are_alike(event, other); });
 }
 
 /// The baseline's curves and its vanished events, without pictures. Marks new ones in `events_now`.
@@ -317,8 +322,7 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
       }
     }
   }
-  std::stable_sort(strips.begin(), strips.end(),
-                   [](const Strip& a, const Strip& b) { return a.turn < b.turn; });
+  std::ranges::stable_sort(strips, {}, &Strip::turn);
   std::size_t used = 0;
   for (const Strip& strip : strips) {
     std::size_t size = 0;
@@ -455,6 +459,21 @@ std::string run_report_data(const SuiteInFolder& suite) {
     data["video"] = bench::base64(input::read_file(video, kVideo));
   }
   return text_of(data);
+}
+
+void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
+                  const suite::Verdict& verdict, const Against* against) {
+  const std::string title = "lcs suite: " + suite.suite.detector;
+  const std::string data = report_data(suite, verdict, against);
+  write_page(file,
+             {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
+}
+
+void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite) {
+  const std::string title = "lcs run: " + suite.suite.scenarios.at(0).name;
+  const std::string data = run_report_data(suite);
+  write_page(
+      file, {.title = title, .data = data, .script = kReportJs, .where_else = bench::kMetricsFile});
 }
 
 }  // namespace lcs::report

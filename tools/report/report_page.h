@@ -6,7 +6,9 @@
 /// without network access.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "tools/suite/comparison.h"
 #include "tools/suite/verdict.h"
@@ -31,5 +33,17 @@ void write_report(const std::filesystem::path& file, const suite::SuiteInFolder&
 /// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
 /// \throws as `write_report`.
 void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
+
+/// Limit of a page's pictures in bytes; the costliest events have priority.
+inline constexpr std::size_t kPictureBudget = 6'000'000;
+/// Size limit of a page's video in bytes.
+inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
+
+/// The JSON text of a suite. \throws std::runtime_error as `write_report`.
+std::string report_data(const suite::SuiteInFolder& suite, const suite::Verdict& verdict,
+                        const Against* against, std::size_t picture_budget = kPictureBudget);
+
+/// The JSON text of a single run, with its video if its folder has one.
+std::string run_report_data(const suite::SuiteInFolder& suite);
 
 }  // namespace lcs::report

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <map>
-#include <optional>
 
 #include "tools/input/spelling.h"
 #include "tools/scoring/metrics.h"
@@ -39,12 +37,11 @@ void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
     if (metric.compute) names.push_back(metric.key);
   }
   for (const scenario::Criterion& criterion : criteria) {
-    if (std::find(names.begin(), names.end(), criterion.metric) != names.end()) continue;
+    if (std::ranges::find(names, criterion.metric) != names.end()) continue;
     const std::optional<std::string> near = input::nearest(criterion.metric, names);
-    throw input::Error(criterion.source,
-                       fmt::format("no metric is called '{}'; {}", criterion.metric,
-                                   near ? fmt::format("did you mean '{}'?", *near)
-                                        : "tools/scoring/SCORING.md names them all"));
+    throw input::Error(criterion.source, "no metric is called '{}'; {}", criterion.metric,
+                       near ? fmt::format("did you mean '{}'?", *near)
+                            : "tools/scoring/SCORING.md names them all");
   }
 }
 

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "tools/recording/box.h"
 #include "tools/scoring/score_rebels.h"
@@ -278,7 +276,7 @@ std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
       group.insert(group.end(), near, corners.end());
       corners.erase(near, corners.end());
     }
-    std::sort(group.begin(), group.end());
+    std::ranges::sort(group);
     groups.push_back(std::move(group));
   }
   return groups;

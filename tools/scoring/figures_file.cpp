@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "tools/files/json_node.h"
 #include "tools/scoring/stages.h"
@@ -45,8 +43,7 @@ Row row_of(const FrameRecord& frame, const std::optional<RebelCounts>& rebels, b
   Row row;
   row("frame", frame.index)("t_s", static_cast<double>(frame.t_ns) * 1e-9);
   row("corners", frame.corners_px.size());
-  row("ignored_corners",
-      std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::ignored));
+  row("ignored_corners", std::ranges::count(frame.verdicts, Verdict::ignored));
   row("psi", layers.ignored.size())("lambda", layers.collectors.size());
   row("alpha", layers.chains.size());
   row("normal_edges", layers.normal_edges.size())("rebel_edges", layers.rebel_edges.size());

@@ -1,4 +1,4 @@
-#include "tools/scoring/score_labels.h"
+#include "tools/scoring/scores.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,8 +34,8 @@ std::vector<Labelled> labelled(const FrameRecord& frame) {
 }
 
 bool in_any(const std::vector<Labelled>& labels, const Vec2& px) {
-  return std::any_of(labels.begin(), labels.end(),
-                     [&](const Labelled& label) { return label.reach.contains(px); });
+  return std::ranges::any_of(labels,
+                             [&](const Labelled& label) { return label.reach.contains(px); });
 }
 
 std::vector<Vec2> rebel_corners(const FrameRecord& frame) {
@@ -48,11 +48,10 @@ std::vector<Vec2> rebel_corners(const FrameRecord& frame) {
 
 bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<Labelled>& labels) {
   if (in_any(labels, circle.location)) return false;
-  return std::none_of(frame.corners_px.begin(), frame.corners_px.end(),
-                      [&](const Eigen::Vector2f& corner) {
-                        const Vec2 px = corner.cast<double>();
-                        return (px - circle.location).norm() <= circle.radius && in_any(labels, px);
-                      });
+  return std::ranges::none_of(frame.corners_px, [&](const Eigen::Vector2f& corner) {
+    const Vec2 px = corner.cast<double>();
+    return (px - circle.location).norm() <= circle.radius && in_any(labels, px);
+  });
 }
 
 /// The number of boxes matched one to one by squares. List positions break ties.

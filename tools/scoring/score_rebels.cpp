@@ -1,7 +1,6 @@
 #include "tools/scoring/score_rebels.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "tools/recording/box.h"
@@ -160,10 +159,10 @@ RebelObjectScore RebelScorer::objects() const {
 }
 
 bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px) {
-  const bool centre_in_box = std::any_of(frame.object_truth.begin(), frame.object_truth.end(),
-                                         [&](const sim::ObjectTruth& truth) {
-                                           return truth.moving && box_of(truth).contains(centre_px);
-                                         });
+  const bool centre_in_box =
+      std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& truth) {
+        return truth.moving && box_of(truth).contains(centre_px);
+      });
   if (centre_in_box) return true;
   const std::set<int> moving = moving_objects(frame);
   for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {

@@ -1,8 +1,6 @@
 #include "tools/scoring/score_squares.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -23,9 +21,9 @@ constexpr double kMinVisibleFraction = 0.5;
 
 bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
   const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
-  const auto corners =
-      std::count_if(frame.corner_truth.begin(), frame.corner_truth.end(),
-                    [&](const sim::CornerTruth& corner) { return corner.object == truth.object; });
+  const auto corners = std::ranges::count_if(
+      frame.corner_truth,
+      [&](const sim::CornerTruth& corner) { return corner.object == truth.object; });
   return area >= kMinArea_px2 && corners >= kMinCorners &&
          truth.visible_fraction >= kMinVisibleFraction;
 }
@@ -123,7 +121,7 @@ SquareOutcomes square_outcomes(const FrameRecord& frame) {
 }
 
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const BoxPair& a, const BoxPair& b) {
+  std::ranges::sort(pairs, [](const BoxPair& a, const BoxPair& b) {
     return std::tuple(-a.iou, a.box, a.square) < std::tuple(-b.iou, b.box, b.square);
   });
   std::set<int> taken_boxes;

@@ -137,8 +137,8 @@ Metrics score(const Recording& recording) {
 }
 
 std::optional<double> value(const Metrics& metrics, const std::string& name) {
-  const auto found = std::find_if(metrics.begin(), metrics.end(),
-                                  [&](const auto& metric) { return metric.first == name; });
+  const auto found =
+      std::ranges::find_if(metrics, [&](const auto& metric) { return metric.first == name; });
   if (found == metrics.end()) throw std::out_of_range("no metric is called " + name);
   return found->second;
 }

@@ -24,7 +24,7 @@ inline std::optional<double> mean(const std::vector<double>& values) {
 /// Linear interpolation between the nearest ranks (type 7, NumPy's default). \param q in [0, 1].
 inline std::optional<double> quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double rank = q * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(std::floor(rank));
   const std::size_t above = std::min(below + 1, values.size() - 1);

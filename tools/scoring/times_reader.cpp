@@ -14,7 +14,7 @@ namespace {
 
 /// The column's index; the number of columns if the header lacks it.
 std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {
-  return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  return static_cast<std::size_t>(std::ranges::find(header, name) - header.begin());
 }
 
 std::size_t column_of(const std::vector<std::string_view>& header, std::string_view name) {
@@ -55,7 +55,7 @@ TimesReader::TimesReader(const std::filesystem::path& frames_csv)
 }
 
 void TimesReader::fail(const std::string& what) const {
-  throw input::Error({file_.here().file, line_}, fmt::format("{}; {}", what, kFramesTable.remedy));
+  throw input::Error({file_.here().file, line_}, "{}; {}", what, kFramesTable.remedy);
 }
 
 void TimesReader::read(FrameRecord& frame) {

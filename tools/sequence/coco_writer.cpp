@@ -13,7 +13,7 @@ namespace {
 
 class CocoWriter : public Writer {
  public:
-  explicit CocoWriter(const SequenceInfo& info) : info_(info) {}
+  using Writer::Writer;
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Pinhole& camera = info_.calibration.camera;
@@ -51,9 +51,6 @@ class CocoWriter : public Writer {
               {.stream = "coco_annotations", .separator = ",\n"},
               {.text = "]}\n"}}}};
   }
-
- private:
-  SequenceInfo info_;
 };
 
 }  // namespace

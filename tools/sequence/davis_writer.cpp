@@ -31,14 +31,13 @@ std::vector<Rgb> palette() {
 
 class DavisWriter : public Writer {
  public:
-  explicit DavisWriter(const SequenceInfo& info) : name_(info.scenario.name) {
+  explicit DavisWriter(const SequenceInfo& info) : Writer(info) {
     const std::size_t objects = info.objects.size();
     if (objects <= kMostObjects) return;
     throw input::Error({info.scenario.scene.string(), 0},
-                       fmt::format("the scene has {} objects, and a DAVIS mask of 8 bits has room "
-                                   "for {}; leave davis out of --formats, or take the names of "
-                                   "some bodies away",
-                                   objects, kMostObjects));
+                       "the scene has {} objects, and a DAVIS mask of 8 bits has room for {}; "
+                       "leave davis out of --formats, or take the names of some bodies away",
+                       objects, kMostObjects);
   }
 
   void write(const FrameView& frame, FrameOutput& output) const override {
@@ -46,13 +45,11 @@ class DavisWriter : public Writer {
     frame.mask.convertTo(mask, CV_8U);
     mask.setTo(kDavisVoid, frame.mask == kVoid);
     output.files.push_back(
-        {fmt::format("davis/Annotations/480p/{}/{:05}.png", name_, frame.now.index),
+        {fmt::format("davis/Annotations/480p/{}/{:05}.png", info_.scenario.name, frame.now.index),
          encode_png(mask, palette_), ""});
   }
-  std::vector<Document> documents() const override { return {}; }
 
  private:
-  std::string name_;
   std::vector<Rgb> palette_ = palette();
 };
 

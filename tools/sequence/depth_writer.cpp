@@ -1,7 +1,7 @@
 // Depth along the optical axis in KITTI's format: 16-bit PNG, 256 codes per metre.
 #include <fmt/format.h>
 
-#include "tools/sequence/depth_code.h"
+#include "tools/sequence/flow_code.h"
 #include "tools/sequence/png.h"
 #include "tools/sequence/writers.h"
 
@@ -10,11 +10,12 @@ namespace {
 
 class DepthWriter : public Writer {
  public:
+  using Writer::Writer;
+
   void write(const FrameView& frame, FrameOutput& output) const override {
     output.files.push_back({fmt::format("depth/{:06}.png", frame.now.index),
                             encode_png(kitti_depth(frame.now.truth.depth_m), PngFilter::sub), ""});
   }
-  std::vector<Document> documents() const override { return {}; }
 };
 
 }  // namespace
@@ -32,8 +33,8 @@ cv::Mat1w kitti_depth(const cv::Mat1f& depth_m) {
   return code;
 }
 
-std::unique_ptr<Writer> make_depth_writer(const SequenceInfo&) {
-  return std::make_unique<DepthWriter>();
+std::unique_ptr<Writer> make_depth_writer(const SequenceInfo& info) {
+  return std::make_unique<DepthWriter>(info);
 }
 
 }  // namespace lcs::sequence

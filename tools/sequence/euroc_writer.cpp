@@ -18,8 +18,7 @@ constexpr const char* kTruthHeader =
     "b_w_RS_S_y [rad s^-1], b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], "
     "b_a_RS_S_z [m s^-2]\n";
 constexpr const char* kPoseHeader =
-    "#timestamp [ns],R_00,R_01,R_02,p_x [m],R_10,R_11,R_12,p_y "
-    "[m],R_20,R_21,R_22,p_z [m]\n";
+    "#timestamp [ns],R_00,R_01,R_02,p_x [m],R_10,R_11,R_12,p_y [m],R_20,R_21,R_22,p_z [m]\n";
 constexpr const char* kOdometryHeader =
     "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
     "w_RB_B_z [rad s^-1]\n";
@@ -38,7 +37,7 @@ std::string sensor_yaml(const char* type, const std::string& comment, const sim:
 
 class EurocWriter : public Writer {
  public:
-  explicit EurocWriter(const SequenceInfo& info) : info_(info) {}
+  using Writer::Writer;
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Observation& o = frame.now;
@@ -132,8 +131,6 @@ class EurocWriter : public Writer {
                odometry.rate_hz, odometry.noise_mps, odometry.yaw_noise_radps,
                odometry.scale_error);
   }
-
-  SequenceInfo info_;
 };
 
 }  // namespace

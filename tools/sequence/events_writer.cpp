@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/script.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -17,10 +16,9 @@ namespace {
 /// \throws input::Error if the scenario has no event pixels.
 void require_events(const SequenceInfo& info, const char* format) {
   if (info.scenario.events) return;
-  throw input::Error({info.scenario.file.string(), 0},
-                     fmt::format("the camera has no event pixels; add 'events: {{}}', or leave {} "
-                                 "out of --formats",
-                                 format));
+  throw input::Error(
+      {info.scenario.file.string(), 0},
+      "the camera has no event pixels; add 'events: {{}}', or leave {} out of --formats", format);
 }
 
 /// By the clock of the camera.
@@ -30,7 +28,7 @@ std::int64_t stamp_ns(const SequenceInfo& info, const sim::Event& event) {
 
 class RpgWriter : public Writer {
  public:
-  explicit RpgWriter(const SequenceInfo& info) : info_(info) {
+  explicit RpgWriter(const SequenceInfo& info) : Writer(info) {
     require_events(info, "events");
     if (info.calibration.optics.lens().distortion != sim::Lens::Distortion::equidistant) return;
     throw input::Error(info.scenario.camera.source,
@@ -71,14 +69,11 @@ class RpgWriter : public Writer {
     if (info_.is_first()) all.push_back({"rpg/imu.txt", {{.stream = "rpg_imu"}}});
     return all;
   }
-
- private:
-  SequenceInfo info_;
 };
 
 class DsecWriter : public Writer {
  public:
-  explicit DsecWriter(const SequenceInfo& info) : info_(info) {
+  explicit DsecWriter(const SequenceInfo& info) : Writer(info) {
     require_events(info, "dsec");
     constexpr double kMost_s = 1e-6 * std::numeric_limits<std::uint32_t>::max();
     const double duration_s = info.scenario.frames / info.scenario.camera.rate_hz;
@@ -98,9 +93,6 @@ class DsecWriter : public Writer {
     }
   }
   std::vector<Document> documents() const override { return {{kDsecFile, {{.stream = "dsec"}}}}; }
-
- private:
-  SequenceInfo info_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// \file
-/// Optical flow in the formats of KITTI and Middlebury.
+/// Optical flow in the formats of KITTI and Middlebury, and depth maps in KITTI's.
 #pragma once
 
 #include <cstdint>
@@ -35,5 +35,10 @@ cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid);
 
 /// \return the bytes of a .flo file.
 std::string middlebury_flow(const cv::Mat2f& motion_px);
+
+inline constexpr float kKittiDepthScale = 256;  ///< codes per metre
+
+/// Rounds to the nearest 1/256 m; 0 means no depth: the sky, and anything beyond 255.99 m.
+cv::Mat1w kitti_depth(const cv::Mat1f& depth_m);
 
 }  // namespace lcs::sequence

@@ -2,7 +2,6 @@
 // of it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -16,6 +15,8 @@ namespace {
 
 class FlowWriter : public Writer {
  public:
+  using Writer::Writer;
+
   void write(const FrameView& frame, FrameOutput& output) const override {
     if (frame.motion == nullptr) return;  // the last frame has no successor
     const int k = frame.now.index;
@@ -28,7 +29,6 @@ class FlowWriter : public Writer {
     add("flow", frame.motion->full_px, frame.motion->seen);
     add("flow_ego", frame.motion->ego_px, frame.motion->ego_seen);
   }
-  std::vector<Document> documents() const override { return {}; }
 };
 
 }  // namespace
@@ -64,8 +64,8 @@ std::string middlebury_flow(const cv::Mat2f& motion_px) {
   return bytes;
 }
 
-std::unique_ptr<Writer> make_flow_writer(const SequenceInfo&) {
-  return std::make_unique<FlowWriter>();
+std::unique_ptr<Writer> make_flow_writer(const SequenceInfo& info) {
+  return std::make_unique<FlowWriter>(info);
 }
 
 }  // namespace lcs::sequence

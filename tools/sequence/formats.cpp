@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scenarios/shipped.h"
+#include "tools/input/message.h"
+#include "tools/process/python.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -166,14 +169,21 @@ double estimated_bytes(const scenario::Scenario& scenario,
 }
 
 const Format& format(std::string_view name) {
-  const auto found = std::find_if(formats().begin(), formats().end(),
-                                  [&](const Format& each) { return each.name == name; });
+  const auto found = std::ranges::find(formats(), name, &Format::name);
   if (found != formats().end()) return *found;
   std::string names;
   for (const Format& each : formats()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
   }
   throw std::invalid_argument(fmt::format("no format is called '{}'; there are {}", name, names));
+}
+
+std::string run_script(const std::string& name, const std::vector<std::string>& arguments) {
+  const process::PythonEnd end =
+      process::run_python(scenario::shipped_folder("tools/sequence") / name, arguments);
+  if (end.is_fine) return end.out;
+  throw std::runtime_error(end.err.empty() ? name + " did not come to its end; run it again"
+                                           : input::one_line(end.err));
 }
 
 }  // namespace lcs::sequence

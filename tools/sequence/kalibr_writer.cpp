@@ -11,9 +11,7 @@ namespace {
 
 class KalibrWriter : public Writer {
  public:
-  explicit KalibrWriter(const SequenceInfo& info) : info_(info) {}
-
-  void write(const FrameView&, FrameOutput&) const override {}
+  using Writer::Writer;
 
   std::vector<Document> documents() const override {
     if (!info_.is_first()) return {};
@@ -100,8 +98,6 @@ class KalibrWriter : public Writer {
     limit("resolution of the accelerometers", accelerometers.resolution_mps2, "m/s^2");
     return text;
   }
-
-  SequenceInfo info_;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 class KittiWriter : public Writer {
  public:
-  explicit KittiWriter(const SequenceInfo& info) : info_(info) { require_rectified(); }
+  explicit KittiWriter(const SequenceInfo& info) : Writer(info) { require_rectified(); }
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     output.files.push_back({fmt::format("kitti/image_{}/{:06}.png", info_.place, frame.now.index),
@@ -43,10 +43,10 @@ class KittiWriter : public Writer {
     constexpr double kRounding = 1e-9;
     const auto require = [&](bool holds, const char* fault, const char* remedy) {
       if (holds) return;
-      throw input::Error(info_.scenario.camera.source,
-                         fmt::format("{}, and KITTI's calib.txt is of rectified cameras; leave "
-                                     "kitti out of --formats, or {}",
-                                     fault, remedy));
+      throw input::Error(
+          info_.scenario.camera.source,
+          "{}, and KITTI's calib.txt is of rectified cameras; leave kitti out of --formats, or {}",
+          fault, remedy);
     };
     const sim::Lens& lens = info_.calibration.optics.lens();
     const sim::Lens& first = info_.rig[0]->optics.lens();
@@ -61,8 +61,6 @@ class KittiWriter : public Writer {
                 lens.height_px == first.height_px,
             "the cameras have different intrinsics", "give them one focal length, centre and size");
   }
-
-  SequenceInfo info_;
 };
 
 }  // namespace

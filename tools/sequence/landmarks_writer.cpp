@@ -21,7 +21,7 @@ std::string or_empty(double number) {
 class LandmarksWriter : public Writer {
  public:
   explicit LandmarksWriter(const SequenceInfo& info)
-      : info_(info),
+      : Writer(info),
         detector_(info.scenario.fast_threshold),
         rectifier_(info.calibration.optics.lens(), info.calibration.optics.size_px()) {}
 
@@ -94,7 +94,6 @@ class LandmarksWriter : public Writer {
     return labels;
   }
 
-  SequenceInfo info_;
   FastDetector detector_;
   sim::Rectifier rectifier_;
 };

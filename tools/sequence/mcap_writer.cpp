@@ -1,6 +1,5 @@
 // ROS 2 messages in a bag of MCAP. The rows are JSON, which write_bag.py turns into the bag by
 // PyPI's rosbags.
-#include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,7 +7,6 @@
 #include "tools/files/json_node.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/script.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -39,7 +37,7 @@ std::string frame_name(std::size_t place) {
 
 class McapWriter : public Writer {
  public:
-  explicit McapWriter(const SequenceInfo& info) : info_(info) {}
+  using Writer::Writer;
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Observation& o = frame.now;
@@ -112,8 +110,6 @@ class McapWriter : public Writer {
     }
     return json;
   }
-
-  SequenceInfo info_;
 };
 
 }  // namespace

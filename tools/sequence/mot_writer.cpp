@@ -10,7 +10,7 @@ namespace {
 class MotWriter : public Writer {
  public:
   explicit MotWriter(const SequenceInfo& info)
-      : info_(info), folder_(fmt::format("mot/{}", info.scenario.name)) {}
+      : Writer(info), folder_(fmt::format("mot/{}", info.scenario.name)) {}
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const int number = frame.now.index + 1;
@@ -38,7 +38,6 @@ class MotWriter : public Writer {
   }
 
  private:
-  SequenceInfo info_;
   std::string folder_;
 };
 

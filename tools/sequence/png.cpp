@@ -67,7 +67,7 @@ std::vector<unsigned char> filtered(const cv::Mat& image, PngFilter filter) {
   for (int y = 0; y < image.rows; ++y) {
     lay_out(image, y, row);
     *to++ = static_cast<unsigned char>(filter);
-    std::copy(row.begin(), row.end(), to);
+    std::ranges::copy(row, to);
     if (filter == PngFilter::sub) {
       for (std::size_t i = pixel; i < row.size(); ++i) {
         to[i] = static_cast<unsigned char>(row[i] - row[i - pixel]);

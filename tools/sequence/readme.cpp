@@ -36,8 +36,7 @@ std::string shutter_text(const scenario::Camera& camera) {
     text = fmt::format(
         "The shutter rolls: row y shows the time of the frame plus y / {} of {} s.\n"
         "Depth, masks, boxes, flow and corners of a row are of its time, poses of the camera of "
-        "the "
-        "frame's.",
+        "the frame's.",
         camera.height_px, camera.rolling_shutter_s);
   }
   if (camera.exposure_s > 0) {
@@ -107,10 +106,9 @@ std::string rig_text(const SequenceInfo& info) {
   if (cameras.empty()) return "";
   std::string text =
       "\n## Cameras\n\nAll take their pictures at the same instants. Files of another camera than "
-      "cam0 "
-      "are in a folder of its\nname, as `cam1/depth/<k>.png` beside `depth/<k>.png`, except in "
-      "`mav0/` and `kitti/`, which have a place for each.\n`kalibr/camchain.yaml` has their poses "
-      "to each other, `lcs.json` that in the rover (`T_BC`).\n\n| folder | name | camera "
+      "cam0 are in a folder of its\nname, as `cam1/depth/<k>.png` beside `depth/<k>.png`, except "
+      "in `mav0/` and `kitti/`, which have a place for each.\n`kalibr/camchain.yaml` has their "
+      "poses to each other, `lcs.json` that in the rover (`T_BC`).\n\n| folder | name | camera "
       "|\n|---|---|"
       "---|\n";
   for (std::size_t i = 0; i < cameras.size(); ++i) {

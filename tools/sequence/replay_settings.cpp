@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -11,7 +10,6 @@
 
 #include "tools/files/json_node.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -45,8 +45,7 @@ template <class... Arguments>
                            Arguments&&... arguments) {
   throw TruthError(
       fmt::format("frame {}: {}; the truth does not agree with itself, which is a fault of this "
-                  "program: please "
-                  "report it with the scenario",
+                  "program: please report it with the scenario",
                   frame, fmt::format(what, std::forward<Arguments>(arguments)...)));
 }
 
@@ -211,7 +210,7 @@ Agreement check_picture(const sim::Observation& now, const sim::Observation& nex
       if (block.size() < kLeastCompared) continue;
       const auto middle = changes.begin() + std::ssize(changes) / 2;
       std::nth_element(changes.begin(), middle, changes.end());
-      const auto differ = std::count_if(block.begin(), block.end(), [&](const Compared& pixel) {
+      const auto differ = std::ranges::count_if(block, [&](const Compared& pixel) {
         const double level = pixel.grey - *middle;
         return level < pixel.low - kGreyLevels || level > pixel.high + kGreyLevels;
       });
@@ -251,8 +250,7 @@ Agreement check_outlines(const sim::Observation& frame, const cv::Mat1w& mask) {
           if (id == 0 || id == kVoid) continue;
           Outline& outline = outlines[id];
           ++outline.pairs;
-          std::transform(contrast.begin(), contrast.end(), outline.contrast.begin(),
-                         outline.contrast.begin(), std::plus());
+          std::ranges::transform(contrast, outline.contrast, outline.contrast.begin(), std::plus());
         }
       }
     }
@@ -261,8 +259,7 @@ Agreement check_outlines(const sim::Observation& frame, const cv::Mat1w& mask) {
   for (const auto& [id, outline] : outlines) {
     if (outline.pairs < kLongOutline) continue;
     const double in_place = outline.contrast[kSide * kSide / 2] / outline.pairs;
-    const double best =
-        *std::max_element(outline.contrast.begin(), outline.contrast.end()) / outline.pairs;
+    const double best = *std::ranges::max_element(outline.contrast) / outline.pairs;
     if (best < kLeastContrast) continue;
     agreement.add(best / std::max(in_place, 1.0));
     if (best > kMostContrast * in_place && best > in_place + kLeastContrast) {

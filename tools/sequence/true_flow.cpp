@@ -1,7 +1,6 @@
 #include "tools/sequence/true_flow.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

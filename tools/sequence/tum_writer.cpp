@@ -7,23 +7,20 @@ namespace {
 
 class TumWriter : public Writer {
  public:
-  explicit TumWriter(const SequenceInfo& info) : has_imu_(info.is_first()) {}
+  using Writer::Writer;
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     output.rows["tum_camera"] = pose_line(frame.stamp_ns, frame.now.truth.now.T_WC);
-    if (!has_imu_) return;
+    if (!info_.is_first()) return;
     std::string& imu = output.rows["tum_imu"];
     for (const sim::ImuTruth& state : frame.now.imu_truth)
       imu += pose_line(kEpoch_ns + state.t_ns, state.T_WS);
   }
   std::vector<Document> documents() const override {
     std::vector<Document> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
-    if (has_imu_) all.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
+    if (info_.is_first()) all.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
     return all;
   }
-
- private:
-  bool has_imu_;
 };
 
 }  // namespace

@@ -51,21 +51,27 @@ struct FrameView {
 
 class Writer {
  public:
+  explicit Writer(const SequenceInfo& info) : info_(info) {}
   virtual ~Writer() = default;
 
   /// A pure function of the frame, so that frames may be written in any order and by any process.
-  virtual void write(const FrameView& frame, FrameOutput& output) const = 0;
+  virtual void write(const FrameView&, FrameOutput&) const {}
   /// Files that contain the rows of all frames. Their paths, and those of a frame's files, are
   /// those of cam0: `of_camera` moves the others'.
-  virtual std::vector<Document> documents() const = 0;
+  virtual std::vector<Document> documents() const { return {}; }
+
+ protected:
+  SequenceInfo info_;
 };
+
+using MakeWriter = std::unique_ptr<Writer>(const SequenceInfo& info);
 
 /// A format that `lcs generate` writes.
 struct Format {
   std::string_view name;
   std::string_view purpose;  ///< one readable line
   std::string_view readme;   ///< its files, as list items for a sequence's README
-  std::unique_ptr<Writer> (*make)(const SequenceInfo& info);
+  MakeWriter* make;
   double bytes_a_pixel = 0;    ///< of its files, for `estimated_bytes`
   double bytes_a_reading = 0;  ///< likewise, for each reading of the IMU
   bool is_usual = true;        ///< written if no formats are named

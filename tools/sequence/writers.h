@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/sequence/writer.h"
 
@@ -14,27 +15,15 @@ namespace lcs::sequence {
 /// change.
 class PictureWriter : public Writer {
  public:
-  explicit PictureWriter(const SequenceInfo& info) : info_(info) {}
+  using Writer::Writer;
   void write(const FrameView& frame, FrameOutput& output) const override;
   std::vector<Document> documents() const override;
-
- private:
-  SequenceInfo info_;
 };
 
-std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_kalibr_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_kitti_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_mcap_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_rpg_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_dsec_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_mot_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_davis_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_flow_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_depth_writer(const SequenceInfo& info);
-std::unique_ptr<Writer> make_landmarks_writer(const SequenceInfo& info);
+/// Makes a writer. \throws input::Error if the sequence cannot have the format.
+MakeWriter make_euroc_writer, make_kalibr_writer, make_kitti_writer, make_tum_writer,
+    make_mcap_writer, make_rpg_writer, make_dsec_writer, make_mot_writer, make_coco_writer,
+    make_davis_writer, make_flow_writer, make_depth_writer, make_landmarks_writer;
 
 /// \name The bag of `make_mcap_writer`, whose document has JSON in place of its bytes.
 ///@{
@@ -57,5 +46,10 @@ std::string hdf5_library();
 /// \throws std::runtime_error
 void write_hdf5(const std::filesystem::path& rows, const std::filesystem::path& out);
 ///@}
+
+/// Runs a Python script of this folder, by which formats with libraries for Python are written.
+/// \param name of the script's file. \return its standard output.
+/// \throws std::runtime_error with the message of a script that failed.
+std::string run_script(const std::string& name, const std::vector<std::string>& arguments);
 
 }  // namespace lcs::sequence

@@ -168,10 +168,9 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
                          const std::vector<Row>& rows, const std::vector<Row>& times,
                          std::size_t column) {
   const auto ahead = [&](const Row& row) { return row.figures[0] - row.figures[column]; };
-  const auto count =
-      std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return ahead(row) > 0; });
-  const Row& least = *std::min_element(
-      rows.begin(), rows.end(), [&](const Row& a, const Row& b) { return ahead(a) < ahead(b); });
+  const auto count = std::ranges::count_if(rows, [&](const Row& row) { return ahead(row) > 0; });
+  const Row& least = *std::ranges::min_element(
+      rows, [&](const Row& a, const Row& b) { return ahead(a) < ahead(b); });
   std::string line =
       fmt::format("{} is ahead of {} in {} of {}, least in {} ({:+.3f})", suite.detector,
                   other.detector, count, rows.size(), least.name, ahead(least));

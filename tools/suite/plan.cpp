@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "scenarios/load.h"
@@ -49,7 +48,7 @@ void add_folder(const fs::path& folder, std::vector<File>& files) {
     throw std::runtime_error(
         fmt::format("there is no .yaml file in {}; give a folder of scenarios", folder.string()));
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::error_code error;
   const bool is_own = fs::equivalent(folder, scenario::shipped_folder("scenarios"), error);
   for (const fs::path& path : found) files.push_back({path, is_own});
@@ -146,7 +145,7 @@ std::vector<PlannedScenario> plan_file(const fs::path& file, const PlanOptions& 
 bool is_in_group(const PlannedScenario& planned, const std::string& group) {
   if (!planned.scenario || group == kAnyGroup) return true;
   const std::vector<std::string>& groups = planned.scenario->groups;
-  return std::find(groups.begin(), groups.end(), group) != groups.end();
+  return std::ranges::find(groups, group) != groups.end();
 }
 
 /// Numbers equal names of a sweep's points. \throws std::runtime_error if two files share a name.
@@ -200,10 +199,10 @@ std::vector<PlannedScenario> plan(const PlanOptions& options) {
                          : fmt::format("the groups are {}", fmt::join(groups, ", "))));
   }
   if (chosen.empty()) {
-    throw std::runtime_error(fmt::format(
-        "none of the {} scenarios is in the group and fits the filter; the groups are {}; see "
-        "lcs suite --group all --list",
-        all.size(), fmt::join(groups, ", ")));
+    throw std::runtime_error(
+        fmt::format("none of the {} scenarios is in the group and fits the filter; the groups are "
+                    "{}; see lcs suite --group all --list",
+                    all.size(), fmt::join(groups, ", ")));
   }
   make_names_unique(chosen);
   return chosen;

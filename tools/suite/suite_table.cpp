@@ -113,15 +113,8 @@ double badness_key(const ScenarioResult& scenario) {
 }
 
 std::string marked(const ScenarioResult& scenario) {
-  switch (outcome_of(scenario)) {
-    case Outcome::passed:
-      return "  " + scenario.name;
-    case Outcome::failed:
-      return "F " + scenario.name;
-    case Outcome::error:
-      return "E " + scenario.name;
-  }
-  return scenario.name;
+  constexpr const char* kMarks[] = {"  ", "F ", "E "};  // in the order of `Outcome`
+  return kMarks[static_cast<int>(outcome_of(scenario))] + scenario.name;
 }
 
 /// A message shared by several seeds.
@@ -151,14 +144,12 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
   std::vector<const ScenarioResult*> rows;
   for (const ScenarioResult& scenario : suite.scenarios) rows.push_back(&scenario);
   if (worst_first) {
-    std::stable_sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) {
-      return badness_key(*a) < badness_key(*b);
-    });
+    std::ranges::stable_sort(
+        rows, [](const auto* a, const auto* b) { return badness_key(*a) < badness_key(*b); });
   }
   const bool of_worlds = is_of_worlds(suite);
-  const bool with_spreads = of_worlds || std::any_of(rows.begin(), rows.end(), [](const auto* row) {
-                              return row->runs.size() > 1;
-                            });
+  const bool with_spreads =
+      of_worlds || std::ranges::any_of(rows, [](const auto* row) { return row->runs.size() > 1; });
   std::vector<std::string> groups = groups_of(suite);
   if (rows.size() == 1) std::erase(groups, kAll);  // the row of the scenario itself
   std::size_t longest = std::string_view("scenario").size();
@@ -170,8 +161,8 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
   TableText table(std::min(longest, kWidth - TableText::figures_width(with_spreads)), with_spreads);
   table.header();
   for (const ScenarioResult* row : rows) {
-    const bool has_figures = std::any_of(row->runs.begin(), row->runs.end(),
-                                         [](const RunResult& run) { return !run.metrics.empty(); });
+    const bool has_figures =
+        std::ranges::any_of(row->runs, [](const RunResult& run) { return !run.metrics.empty(); });
     if (has_figures) {
       table.row(marked(*row), [&](std::string_view name) { return over_seeds(*row, name); });
     } else {

@@ -12,22 +12,22 @@ namespace lcs::suite {
 namespace {
 
 std::optional<double> metric_of(const RunResult& run, std::string_view name) {
-  const auto found = std::find_if(run.metrics.begin(), run.metrics.end(),
-                                  [&](const auto& metric) { return metric.first == name; });
+  const auto found =
+      std::ranges::find_if(run.metrics, [&](const auto& metric) { return metric.first == name; });
   return found == run.metrics.end() ? std::nullopt : found->second;
 }
 
 }  // namespace
 
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
-  const auto found = std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
-                                  [&](const auto& scenario) { return scenario.name == name; });
+  const auto found = std::ranges::find_if(
+      suite.scenarios, [&](const auto& scenario) { return scenario.name == name; });
   return found == suite.scenarios.end() ? nullptr : &*found;
 }
 
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
-  const auto found = std::find_if(scenario.runs.begin(), scenario.runs.end(),
-                                  [&](const auto& run) { return run.seed == seed; });
+  const auto found =
+      std::ranges::find_if(scenario.runs, [&](const auto& run) { return run.seed == seed; });
   return found == scenario.runs.end() ? nullptr : &*found;
 }
 
@@ -90,8 +90,8 @@ bool is_in(const ScenarioResult& scenario, const std::string& group) {
 }
 
 std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
-  return std::count_if(suite.scenarios.begin(), suite.scenarios.end(),
-                       [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
+  return std::ranges::count_if(
+      suite.scenarios, [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
 }
 
 std::string counted_group(const SuiteResult& suite, const std::string& group) {
@@ -105,7 +105,7 @@ std::vector<std::string> groups_of(const SuiteResult& suite) {
   std::vector<std::string> groups;
   for (const ScenarioResult& scenario : suite.scenarios) {
     for (const std::string& group : scenario.groups) {
-      if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+      if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
     }
   }
   const auto has_all = [&](const std::string& group) {
@@ -121,14 +121,15 @@ std::vector<std::string> groups_of(const SuiteResult& suite) {
 
 bool is_of_worlds(const SuiteResult& suite) {
   return !suite.scenarios.empty() &&
-         std::all_of(suite.scenarios.begin(), suite.scenarios.end(),
-                     [](const ScenarioResult& scenario) { return scenario.drawn.has_value(); });
+         std::ranges::all_of(suite.scenarios, [](const ScenarioResult& scenario) {
+           return scenario.drawn.has_value();
+         });
 }
 
 std::int64_t drawn_again(const SuiteResult& suite) {
-  return std::count_if(
-      suite.scenarios.begin(), suite.scenarios.end(),
-      [](const ScenarioResult& scenario) { return scenario.drawn && scenario.drawn->again > 0; });
+  return std::ranges::count_if(suite.scenarios, [](const ScenarioResult& scenario) {
+    return scenario.drawn && scenario.drawn->again > 0;
+  });
 }
 
 namespace {

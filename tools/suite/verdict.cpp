@@ -138,8 +138,8 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
   const auto weight = [](const Difference* one) {
     return one->metric == "rebel.f1" ? std::numeric_limits<double>::infinity() : one->weight;
   };
-  std::stable_sort(found.begin(), found.end(),
-                   [&](const auto* a, const auto* b) { return weight(a) > weight(b); });
+  std::ranges::stable_sort(found,
+                           [&](const auto* a, const auto* b) { return weight(a) > weight(b); });
   for (const Difference* one : found) to.weight = std::max(to.weight, one->weight);
   for (const Difference* one : std::span(found).first(
            static_cast<std::size_t>(std::min(std::ssize(found), kMostFigures)))) {
@@ -240,7 +240,7 @@ Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
       all.push_back(std::move(*found));
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Weighed& a, const Weighed& b) {
+  std::ranges::stable_sort(all, [](const Weighed& a, const Weighed& b) {
     return std::pair(a.worst(), -a.weight) < std::pair(b.worst(), -b.weight);
   });
   const CriteriaCounts criteria = count_criteria(judgements_of(after.suite, others));

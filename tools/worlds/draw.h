@@ -2,6 +2,7 @@
 /// A world's random choices, from the project's own generator (sim/random.h).
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,9 @@
 #include "sim/random.h"
 
 namespace lcs::worlds {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 class Draw {
  public:

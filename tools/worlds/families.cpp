@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& low_m,
              const Vector2d& high_m, double gap_m) {
   constexpr int kTries = 12;

@@ -7,9 +7,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 /// A door in its frame, flush with a wall along x; the room is towards -y.
 Parts door(Kit& kit, int leaf, int frame) {
   Draw& d = kit.draw;

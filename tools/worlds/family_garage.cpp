@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 Layout lay_out_garage(Kit& kit) {
   Draw& d = kit.draw;
   const double aisle = d.between(2.4, 3.2), bay = d.between(4.6, 5.2);  // half width; depth

@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 Layout lay_out_room(Kit& kit) {
   Draw& d = kit.draw;
   const Vector2d half{d.between(2.6, 5.5), d.between(2.2, 4)};

@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 Layout lay_out_street(Kit& kit) {
   Draw& d = kit.draw;
   const double road = d.between(3, 4.5), pavement = d.between(1.5, 3);  // half width; one side

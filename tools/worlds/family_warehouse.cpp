@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 Layout lay_out_warehouse(Kit& kit) {
   Draw& d = kit.draw;
   const double aisle = d.between(1.3, 2.3);  // half width

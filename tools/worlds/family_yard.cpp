@@ -5,9 +5,6 @@
 
 namespace lcs::worlds {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 Layout lay_out_yard(Kit& kit) {
   Draw& d = kit.draw;
   const Vector2d half{d.between(9, 15), d.between(6, 10)};

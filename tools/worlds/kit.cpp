@@ -12,9 +12,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 constexpr std::size_t kMostTextures = 16;
 // Weathering of a world's surfaces, fitted to recordings (README.md).
 constexpr double kLeastWeather_levels = 4, kMostWeather_levels = 55;
@@ -307,7 +304,7 @@ void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_
 }
 
 bool Kit::is_bare(const Parts& parts) const {
-  return std::none_of(parts.begin(), parts.end(), [&](const Part& part) {
+  return std::ranges::none_of(parts, [&](const Part& part) {
     return world.materials[static_cast<std::size_t>(part.material)].bold;
   });
 }

@@ -4,19 +4,51 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/worlds/draw.h"
-#include "tools/worlds/placing.h"
 #include "tools/worlds/textures.h"
 #include "tools/worlds/world.h"
 
 namespace lcs::worlds {
+
+// ---- Geometry of the plan view: overlaps, gaps and occlusions
+
+/// An upright box, rotated by its heading.
+struct Box {
+  Vector2d centre_m = Vector2d::Zero();
+  Vector2d half_m = Vector2d::Zero();  ///< along its heading, and across
+  double heading_rad = 0;
+  double foot_m = 0, head_m = 0;  ///< heights of its bottom and top
+};
+
+/// Horizontal distance of two boxes: at most the true one, and below 0 for an overlap. Infinite
+/// for boxes one above the other.
+double gap_m(const Box& a, const Box& b);
+
+/// Whether the line segment intersects the box.
+bool is_between(const Box& box, const Vector3d& from_m, const Vector3d& to_m);
+
+/// The point at these fractions, from -1 to 1, of a box's half sizes.
+Vector3d point_of(const Box& box, double ahead, double left, double up);
+
+/// Least gap to any of the boxes; infinite without boxes.
+double least_gap_m(const Box& box, const std::vector<Box>& others);
+
+inline Vector2d towards(double heading_rad) {
+  return {std::cos(heading_rad), std::sin(heading_rad)};
+}
+inline Vector2d turned(const Vector2d& v, double by_rad) {
+  const Vector2d d = towards(by_rad);
+  return {d.x() * v.x() - d.y() * v.y(), d.y() * v.x() + d.x() * v.y()};
+}
+
+// ---- The kit
 
 using Parts = std::vector<Part>;
 
@@ -33,7 +65,7 @@ class Kit {
   std::vector<Box> solids;     ///< all standing and hanging things
   std::vector<Box> kept_free;  ///< paths of the rover and the movers
   /// Height of the ground.
-  std::function<double(const Eigen::Vector2d&)> ground = [](const auto&) { return 0.0; };
+  std::function<double(const Vector2d&)> ground = [](const auto&) { return 0.0; };
   double ceiling_m = 100;  ///< its height; large without a ceiling
   double plainness = 0;    ///< share of things without texture
 
@@ -41,7 +73,7 @@ class Kit {
 
   /// \name Materials, by index into `world.materials`.
   ///@{
-  int plain(const Eigen::Vector3d& rgb, double alpha = 1, double emission = 0);
+  int plain(const Vector3d& rgb, double alpha = 1, double emission = 0);
   int plain();  ///< of a random colour
   /// A surface of one of the styles. At the limit of pictures per world it reuses one.
   int surface(const std::vector<Style>& styles);
@@ -56,45 +88,45 @@ class Kit {
   /// written with any compiler.
   ///@{
   struct Block {
-    Eigen::Vector3d size_m, foot_m;  ///< positions are those of the foot's centre
+    Vector3d size_m, foot_m;  ///< positions are those of the foot's centre
     int material = 0;
     double heading_rad = 0;
   };
   Part block(const Block& block);
   struct Post {
     double radius_m, height_m;
-    Eigen::Vector3d foot_m;
+    Vector3d foot_m;
     int material = 0;
   };
   Part post(const Post& post);
   struct Bar {
-    Eigen::Vector3d from_m, to_m;
+    Vector3d from_m, to_m;
     double radius_m;
     int material = 0;
   };
   Part bar(const Bar& bar) const;
   struct Ball {
-    Eigen::Vector3d radii_m, middle_m;
+    Vector3d radii_m, middle_m;
     int material = 0;
   };
   Part ball(const Ball& ball);
   struct Lump {
-    Eigen::Vector3d radii_m;
+    Vector3d radii_m;
     double bumps;
-    Eigen::Vector3d middle_m;
+    Vector3d middle_m;
     int material = 0;
   };
   Part lump(const Lump& lump);
   struct Turned {
-    std::vector<Eigen::Vector2d> profile_m;
-    Eigen::Vector3d foot_m;
+    std::vector<Vector2d> profile_m;
+    Vector3d foot_m;
     int material = 0;
   };
   Part turned(const Turned& turned);
   struct Prism {
-    std::vector<Eigen::Vector2d> polygon_m;
+    std::vector<Vector2d> polygon_m;
     double height_m;
-    Eigen::Vector3d foot_m;
+    Vector3d foot_m;
     int material = 0;
   };
   Part prism(const Prism& prism);
@@ -105,7 +137,7 @@ class Kit {
 
   Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
   /// The bounding box of parts that are placed as a body.
-  Box box_at(const Parts& parts, const Eigen::Vector2d& at_m, double heading_rad) const;
+  Box box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const;
   /// The attitude of a box placed there: upright or, if it is long, along the ground's slope.
   Eigen::Quaterniond attitude(const Box& box) const;
 
@@ -113,12 +145,11 @@ class Kit {
   bool is_bare(const Parts& parts) const;
 
   /// Places an object, even where it overlaps others; its new name begins with `kind`.
-  void stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
-             double heading_rad);
+  void stand(const std::string& kind, const Parts& parts, const Vector2d& at_m, double heading_rad);
   struct Standing {
     std::string kind;
     Parts parts;
-    Eigen::Vector2d at_m;
+    Vector2d at_m;
     double heading_rad;
     double gap_m = 0.05;
   };
@@ -126,28 +157,26 @@ class Kit {
   bool try_stand(const Standing& standing);
   struct Fixture {
     Parts parts;
-    Eigen::Vector2d at_m;
+    Vector2d at_m;
     double heading_rad;
     bool in_the_way = true;
   };
   /// Places a part of the static scene, even where it overlaps others.
   void fix(const Fixture& fixture);
   /// A wall of the static scene between two points, on the left of the line.
-  void wall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double height_m,
-            int material, double foot_m = 0, double thickness_m = 0.1);
+  void wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, int material,
+            double foot_m = 0, double thickness_m = 0.1);
   /// A level floor with wheel contact, of these half sizes.
-  void floor(int material, const Eigen::Vector2d& half_m);
+  void floor(int material, const Vector2d& half_m);
   /// Ground that rises from x = `from_x_m` on, with width `width_m` about y = 0.
   void ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material);
   /// A dark patch on the floor, like the shadow of an absent object.
-  void shadow(const Eigen::Vector2d& at_m);
+  void shadow(const Vector2d& at_m);
   /// A flat mark on the floor.
-  void decal(const Eigen::Vector2d& at_m, double heading_rad, const Eigen::Vector2d& size_m,
-             int material);
+  void decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material);
 
  private:
-  Part mesh_part(const std::string& key, const Mesh& mesh, const Eigen::Vector3d& at_m,
-                 int material);
+  Part mesh_part(const std::string& key, const Mesh& mesh, const Vector3d& at_m, int material);
   double side_of(int material, double fit_m) const;
   int add_surface(Style style, bool is_wide, bool is_cube);
 

@@ -9,8 +9,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Adds a flat quad; corners are counter-clockwise from outside.
@@ -104,9 +102,9 @@ Mesh prism_mesh(const std::vector<Vector2d>& polygon_m, double height_m, double 
 Mesh turned_mesh(const std::vector<Vector2d>& profile_m, double side_m, int around) {
   Mesh mesh;
   const double widest =
-      std::max_element(profile_m.begin(), profile_m.end(),
-                       [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); })
-          ->x();
+      std::ranges::max_element(profile_m, [](const Vector2d& a, const Vector2d& b) {
+        return a.x() < b.x();
+      })->x();
   // a whole number of pictures round it, so that they meet
   const double pictures = std::max(1.0, std::round(kTurn * widest / side_m));
   double up = 0;

@@ -13,8 +13,8 @@ namespace lcs::worlds {
 
 struct Mesh {
   struct Vertex {
-    Eigen::Vector3d position_m, normal;
-    Eigen::Vector2d texture;  ///< a picture spans 0 to 1; y up
+    Vector3d position_m, normal;
+    Vector2d texture;  ///< a picture spans 0 to 1; y up
   };
   std::vector<Vertex> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
@@ -22,18 +22,18 @@ struct Mesh {
 
 /// \name Closed surfaces with their foot at z = 0. A picture spans `side_m` of the surface.
 ///@{
-Mesh box_mesh(const Eigen::Vector3d& size_m, double side_m);
+Mesh box_mesh(const Vector3d& size_m, double side_m);
 /// An extruded polygon, counter-clockwise from above; star-shaped about its centroid.
-Mesh prism_mesh(const std::vector<Eigen::Vector2d>& polygon_m, double height_m, double side_m);
+Mesh prism_mesh(const std::vector<Vector2d>& polygon_m, double height_m, double side_m);
 /// A profile (radius, height), from the foot up, rotated about z. Radii above 0.
-Mesh turned_mesh(const std::vector<Eigen::Vector2d>& profile_m, double side_m, int around = 16);
+Mesh turned_mesh(const std::vector<Vector2d>& profile_m, double side_m, int around = 16);
 /// An ellipsoid centred at z = 0, with bumps of `bumps` times its radius.
-Mesh lump_mesh(const Eigen::Vector3d& radii_m, double bumps, double side_m, Draw& draw);
+Mesh lump_mesh(const Vector3d& radii_m, double bumps, double side_m, Draw& draw);
 ///@}
 
 /// A leaf, a blade of grass or a stone: a tetrahedron from its foot to its tip.
 struct Chip {
-  Eigen::Vector3d foot_m, tip_m;
+  Vector3d foot_m, tip_m;
   double width_m;
 };
 /// Many chips as one mesh, without texture.

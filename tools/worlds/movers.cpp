@@ -1,4 +1,4 @@
-#include "tools/worlds/movers.h"
+#include "tools/worlds/families.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoverGap_m = 0.12, kGap_m = 0.08;
 constexpr int kTries = 120;
@@ -263,8 +261,8 @@ Sight look(const Kit& kit, const Stand& stand, const Box& box, const std::vector
           continue;
         }
         const auto hides = [&](const Box& other) { return is_between(other, eye, point); };
-        if (std::any_of(kit.solids.begin(), kit.solids.end(), hides)) continue;
-        if (std::any_of(others.begin(), others.end(), hides)) {
+        if (std::ranges::any_of(kit.solids, hides)) continue;
+        if (std::ranges::any_of(others, hides)) {
           sight.before = true;
           continue;
         }
@@ -358,9 +356,8 @@ void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
          Eigen::Quaterniond(Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
          mover.parts});
     if (kit.is_bare(mover.parts)) kit.tag("plain_mover");
-    const bool is_mesh = std::any_of(mover.parts.begin(), mover.parts.end(), [](const Part& part) {
-      return part.shape == Part::Shape::mesh;
-    });
+    const bool is_mesh = std::ranges::any_of(
+        mover.parts, [](const Part& part) { return part.shape == Part::Shape::mesh; });
     kit.tag(is_mesh ? "mover_of_meshes" : "mover_of_primitives");
     const scenario::Camera& camera = kit.world.scenario.camera;
     for (const Stand& stand : way.frames) {

@@ -1,14 +1,10 @@
-#include "tools/worlds/placing.h"
+#include "tools/worlds/kit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace lcs::worlds {
 namespace {
-
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 /// Half extent of a box along a direction.
 double reach(const Box& box, const Vector2d& along) {

@@ -12,8 +12,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 using scenario::EgoPhase;
 constexpr double kStep_s = 0.005;
 
@@ -130,7 +128,7 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
 }
 
 bool stays_in(const std::vector<Stand>& frames, const Lane& lane) {
-  return std::all_of(frames.begin(), frames.end(), [&](const Stand& stand) {
+  return std::ranges::all_of(frames, [&](const Stand& stand) {
     const Vector2d in_lane = turned(stand.at_m - lane.start_m, -lane.heading_rad);
     return in_lane.x() >= -0.05 && in_lane.x() <= lane.length_m &&
            std::abs(in_lane.y()) <= lane.half_width_m;

@@ -10,7 +10,7 @@ namespace lcs::worlds {
 
 /// The rover's free lane: from `start_m` along `heading_rad`, with length and half width.
 struct Lane {
-  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
+  Vector2d start_m = Vector2d::Zero();
   double heading_rad = 0;
   double length_m = 5;
   double half_width_m = 1;
@@ -22,7 +22,7 @@ struct Lane {
 /// The rover's pose at a time.
 struct Stand {
   double t_s = 0;
-  Eigen::Vector2d at_m = Eigen::Vector2d::Zero();
+  Vector2d at_m = Vector2d::Zero();
   double heading_rad = 0;
 };
 
@@ -40,8 +40,8 @@ Way draw_rover(Kit& kit, const Lane& lane);
 
 /// Projects a point into the camera at a stand: x and y in pixels and its depth in metres, which
 /// may be negative.
-Eigen::Vector3d seen_at(const scenario::Camera& camera, const Stand& stand, double ground_m,
-                        const Eigen::Vector3d& point_m);
-Eigen::Vector3d camera_at(const scenario::Camera& camera, const Stand& stand, double ground_m);
+Vector3d seen_at(const scenario::Camera& camera, const Stand& stand, double ground_m,
+                 const Vector3d& point_m);
+Vector3d camera_at(const scenario::Camera& camera, const Stand& stand, double ground_m);
 
 }  // namespace lcs::worlds

@@ -18,7 +18,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
 constexpr std::array<std::pair<int, int>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 constexpr int kWidth = 480, kHeight = 360;
 const cv::Scalar kMoves(255, 0, 255), kStands(0, 200, 0), kRover(220, 80, 0), kWall(120, 120, 120),
@@ -61,7 +60,7 @@ std::vector<Box> walls_of(const World& world) {
     Box box = bounds(world, {own});
     const double foot = box.foot_m + part.position_m.z();
     if (foot > 1.2 || box.head_m - box.foot_m < 0.2) continue;  // ceilings and floor marks
-    const Vector2d ahead = (part.rotation * Eigen::Vector3d::UnitX()).head<2>();
+    const Vector2d ahead = (part.rotation * Vector3d::UnitX()).head<2>();
     box.centre_m = part.position_m.head<2>();
     box.heading_rad = std::atan2(ahead.y(), ahead.x());
     boxes.push_back(box);
@@ -71,7 +70,7 @@ std::vector<Box> walls_of(const World& world) {
 
 Box box_of(const World& world, const Body& body) {
   Box box = bounds(world, body.parts);
-  const Vector2d ahead = (body.rotation * Eigen::Vector3d::UnitX()).head<2>();
+  const Vector2d ahead = (body.rotation * Vector3d::UnitX()).head<2>();
   box.centre_m = body.position_m.head<2>();
   box.heading_rad = std::atan2(ahead.y(), ahead.x());
   return box;
@@ -79,9 +78,7 @@ Box box_of(const World& world, const Body& body) {
 
 const scenario::Actor* actor_of(const World& world, const Body& body) {
   const auto& actors = world.scenario.actors;
-  const auto found = std::find_if(actors.begin(), actors.end(), [&](const scenario::Actor& actor) {
-    return actor.body == body.name;
-  });
+  const auto found = std::ranges::find(actors, body.name, &scenario::Actor::body);
   return found == actors.end() ? nullptr : &*found;
 }
 

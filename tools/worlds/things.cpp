@@ -1,4 +1,4 @@
-#include "tools/worlds/things.h"
+#include "tools/worlds/families.h"
 
 #include <cmath>
 #include <functional>
@@ -9,8 +9,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
 const std::vector<Style> kPrinted{Style::lettering, Style::lettering, Style::stripes, Style::plain};

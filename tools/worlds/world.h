@@ -23,7 +23,7 @@ struct Texture {
 };
 
 struct Material {
-  Eigen::Vector3d rgb{1, 1, 1};
+  Vector3d rgb{1, 1, 1};
   double alpha = 1;
   double emission = 0;
   int texture = -1;   ///< -1: none
@@ -36,8 +36,8 @@ struct Material {
 /// A geom in its body frame, with MuJoCo's sizes.
 struct Part {
   enum class Shape { box, cylinder, capsule, ellipsoid, plane, mesh } shape = Shape::box;
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Vector3d size_m = Vector3d::Zero();
+  Vector3d position_m = Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   int material = 0;
   int mesh = -1;
@@ -47,7 +47,7 @@ struct Part {
 /// An object of the scene.
 struct Body {
   std::string name;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Vector3d position_m = Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   std::vector<Part> parts;
 };
@@ -63,7 +63,7 @@ struct World {
   std::vector<Part> setting;
   std::vector<Body> bodies;
   bool has_sky = false;
-  Eigen::Vector3d sky{0.6, 0.7, 0.85};
+  Vector3d sky{0.6, 0.7, 0.85};
   double ambient = 0.5;  ///< omnidirectional light
   double diffuse = 0.4;  ///< directional light
   double extent_m = 10;

@@ -12,9 +12,6 @@
 namespace lcs::worlds {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 constexpr int kMostAttempts = 200;
 constexpr int kStillSeen = 12;  // least frames of a visible mover after furnishing
 constexpr double kNear_m = 0.8;
@@ -100,7 +97,7 @@ bool shows_near(const Kit& kit, const Way& way) {
 }
 
 bool is_way_free(const Kit& kit, const Way& way) {
-  return std::all_of(way.frames.begin(), way.frames.end(), [&](const Stand& stand) {
+  return std::ranges::all_of(way.frames, [&](const Stand& stand) {
     return least_gap_m(way.box_of(kit.world.scenario.camera, stand), kit.solids) > 0.05;
   });
 }
@@ -210,7 +207,7 @@ std::vector<Choice> choose(std::string_view split_name, int count, const std::st
 }
 
 bool is_static(const Choice& choice) {
-  const auto place = std::find(families().begin(), families().end(), choice.family);
+  const auto place = std::ranges::find(families(), choice.family);
   return (choice.seed + static_cast<std::uint64_t>(place - families().begin())) % 4 == 3;
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "scenarios/save.h"
+#include "scenarios/keys.h"
 #include "tools/files/output_file.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/meshes.h"
@@ -14,8 +14,6 @@
 
 namespace lcs::worlds {
 namespace {
-
-using Eigen::Vector3d;
 
 /// Formats with the decimals for a tenth of a millimetre, without trailing zeros.
 std::string number(double value) {
