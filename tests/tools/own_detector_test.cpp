@@ -403,7 +403,7 @@ TEST_F(OwnDetector, ThatFailsInOneRunOfASuiteLeavesTheOthers) {
   EXPECT_EQ(result.detector, "mine");
   EXPECT_EQ(result.scenarios.at(0).runs.at(0).command,
             "lcs run scenarios/far.yaml --seed 1 --detector mine --detector-command '" + python() +
-                R"( mine.py '\''dies for far'\''' --detector-timeout '30 s')");
+                R"( mine.py '\''dies for far'\''')");
   EXPECT_EQ(result.scenarios.at(0).runs.at(0).outcome, suite::Outcome::error);
   EXPECT_EQ(result.scenarios.at(1).runs.at(0).outcome, suite::Outcome::passed);
   EXPECT_EQ(bench::value(result.scenarios.at(1).runs.at(0).metrics, "rebel.recall"), 0);
