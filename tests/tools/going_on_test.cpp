@@ -11,6 +11,7 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace lcs {
@@ -69,8 +70,16 @@ class GoingOn : public testing::Test {
     while (command.is_running() && !fs::exists(home_ / file)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
+    end(command);
+  }
+  /// Kills a command, and waits until its children have tidied up.
+  static void end(bench::Command& command) {
+    const std::vector<pid_t> children = bench::children_of(command.pid());
     command.send(SIGKILL);
     ASSERT_NE(command.wait().exit_code, 0) << "it was done before it could be killed";
+    for (const pid_t child : children) {
+      while (bench::is_running(child)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
   }
   /// A suite of two runs, one after the other, that is killed after the first.
   void begin_suite(const Words& more, const std::string& first = "a") {
@@ -312,8 +321,7 @@ class GoingOnWithASequence : public GoingOn {
     while (command.is_running() && !has_frame()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    command.send(SIGKILL);
-    ASSERT_NE(command.wait().exit_code, 0) << "it was done before it could be killed";
+    end(command);
   }
 };
 
