@@ -183,6 +183,7 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
   made.range = sequence::part_of(scenario.frames, part, parts);
   sequence::GenerateOptions what{formats_of(request, {}), request.sets, {}};
   add_program(what.program, {});
+  add_changed_program(what.program);
   const fs::path target = target_of(request, scenario);
   sequence::SequenceFolder folder(target, folder_of(scenario), request.add, is_part,
                                   waiting(target, caller));

@@ -49,10 +49,13 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
 
 void add_program(nlohmann::ordered_json& facts, const sim::Versions& versions) {
   facts["program"] = program_text();
-  if (!is_of_a_commit()) facts["program_sha256"] = program_sha256();
   if (!versions.mujoco.empty()) facts["mujoco"] = versions.mujoco;
   if (!versions.gl_renderer.empty()) facts["renderer"] = versions.gl_renderer;
   facts["opencv"] = cv::getVersionString();
+}
+
+void add_changed_program(nlohmann::ordered_json& facts) {
+  if (!is_of_a_commit()) facts["program_sha256"] = program_sha256();
 }
 
 void write_how_made(const std::filesystem::path& folder, const std::string& command,

@@ -208,6 +208,7 @@ nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& pl
                                {"keep", word_of(request.keep)}};
   facts["split"] = request.worlds.split;
   add_program(facts, sim::versions());
+  add_changed_program(facts);
   suite::Runs runs;
   for (const suite::PlannedScenario& one : planned.plan) runs.emplace_back(one.name, one.seeds);
   add_part(facts, request.shard, runs);

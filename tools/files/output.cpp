@@ -108,7 +108,8 @@ bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
 }
 
 /// Removes this program's files from a staging folder, and the folder if it is empty then. The
-/// marker stays until all of these files are gone, so that another process can finish.
+/// marker and the note of the commit stay until all of these files are gone, so that another
+/// process can finish.
 void remove_own(const fs::path& folder, const ResultNames& names) {
   bool is_done = true;
   std::error_code error;
@@ -120,7 +121,8 @@ void remove_own(const fs::path& folder, const ResultNames& names) {
     fs::directory_iterator entry(own[i], error);
     for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
       const fs::path within = entry->path().lexically_relative(folder);
-      if (within != kMarker && is_of_staging(within, *entry, names)) own.push_back(entry->path());
+      const bool is_last = within == kMarker || within == kCommit;
+      if (!is_last && is_of_staging(within, *entry, names)) own.push_back(entry->path());
     }
     look();
   }
@@ -131,8 +133,9 @@ void remove_own(const fs::path& folder, const ResultNames& names) {
     look();
   }
   if (!is_done) return;
-  fs::remove(folder / kMarker, error);
-  fs::remove(folder, error);
+  fs::remove(folder / kCommit, error);
+  if (!error) fs::remove(folder / kMarker, error);
+  if (!error) fs::remove(folder, error);
 }
 
 /// \return 0, or the error.
