@@ -332,10 +332,10 @@ std::vector<suite::SuiteResult> Making::run(bench::Output& folder,
              if (there == 0) return;
              caller_.note(fmt::format("going on, with {} of the runs there already", there));
            },
+       .on_result = [&] { folder.keep(); },
        .on_run =
            [&](const suite::SuiteProgress& done, const std::string& scenario,
                std::span<const suite::RunResult* const> runs) {
-             folder.keep();
              whole_ = done.done;
              total_ = done.total;
              watch_.finished(done, scenario, detectors, runs);

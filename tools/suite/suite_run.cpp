@@ -8,7 +8,6 @@
 
 #include "tools/files/json_node.h"
 #include "tools/files/written.h"
-#include "tools/input/message.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/figures_file.h"
@@ -158,6 +157,7 @@ double seconds_of(const fs::path& folder) {
 }
 
 /// Takes the figures of a run from its folder. \param exit absent for a run of an earlier process.
+/// A file of a finished run that cannot be read ends the suite, which goes on when it can be.
 /// \param provenance of the suite, to which the files are added that the run has read.
 void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
                 const SuiteWatcher& watcher, RunResult& run, bench::Provenance& provenance) {
@@ -173,17 +173,12 @@ void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
   bench::remove_abandoned(folder, bench::result_files());  // which it could not remove by itself
   provenance.add_read(bench::read_how_made(folder),
                       fmt::format("{} seed {}", planned.name, run.seed));
-  try {
-    run.metrics = bench::read_metrics(folder / bench::kMetricsFile);
-    const fs::path warnings = folder / bench::kWarningsFile;
-    if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
-    std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
-    run.outcome = Outcome::passed;
-    judge_run(bench::asked_of(watcher.detector, watcher.is_own, planned.scenario->criteria), run);
-  } catch (const std::exception& error) {
-    run.outcome = Outcome::error;
-    run.error = input::message_of(error);
-  }
+  run.metrics = bench::read_metrics(folder / bench::kMetricsFile);
+  const fs::path warnings = folder / bench::kWarningsFile;
+  if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
+  std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
+  run.outcome = Outcome::passed;
+  judge_run(bench::asked_of(watcher.detector, watcher.is_own, planned.scenario->criteria), run);
 }
 
 }  // namespace
@@ -291,6 +286,9 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   const auto start = std::chrono::steady_clock::now();
   const auto on_exit = [&](std::size_t place, const Exit& exit) {
     const Job& job = jobs[place];
+    const PlannedScenario& planned = plan[job.scenario];
+    const fs::path result = folder_of(planned, planned.seeds[job.run]);
+    if (fs::exists(options.watchers.front().folder / result)) options.on_result();
     std::vector<const RunResult*> finished;
     for (std::size_t i = 0; i < suites.size(); ++i) {
       RunResult& run = suites[i].scenarios[job.scenario].runs[job.run];

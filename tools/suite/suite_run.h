@@ -51,6 +51,8 @@ struct SuiteRunOptions {
   bench::Provenance& provenance;      ///< of the suite; gets the files that the runs have read
   /// Called with the number of runs that an earlier process has finished.
   std::function<void(std::size_t)> on_begin;
+  /// Called when a run of this process has left its result, before that is read.
+  std::function<void()> on_result;
   /// Called when a run of this process ends, with its result for each watcher.
   std::function<void(const SuiteProgress&, const std::string& scenario,
                      std::span<const RunResult* const>)>
