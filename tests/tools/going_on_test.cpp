@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -64,27 +65,33 @@ class GoingOn : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  /// Kills a command as soon as a file is there.
-  void kill_at(const Words& words, const fs::path& file) {
+  /// Kills a command as soon as `is_time`, and waits until its children have tidied up.
+  /// \return false if the command was done before.
+  bool is_killed(const Words& words, const std::function<bool()>& is_time) {
     bench::Command command(words, {.folder = home_});
-    while (command.is_running() && !fs::exists(home_ / file)) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while (command.is_running() && !is_time()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    end(command);
-  }
-  /// Kills a command, and waits until its children have tidied up.
-  static void end(bench::Command& command) {
     const std::vector<pid_t> children = bench::children_of(command.pid());
     command.send(SIGKILL);
-    ASSERT_NE(command.wait().exit_code, 0) << "it was done before it could be killed";
+    const bool is_done = command.wait().exit_code == 0;
     for (const pid_t child : children) {
       while (bench::is_running(child)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return !is_done;
+  }
+  /// Likewise as soon as a file is there, and again if the command was too fast.
+  void kill_at(const Words& words, const fs::path& file, const fs::path& result) {
+    const auto is_there = [&] { return fs::exists(home_ / file); };
+    for (int tries = 0; !is_killed(words, is_there); ++tries) {
+      ASSERT_LT(tries, 20) << "it was always done before it could be killed";
+      fs::remove_all(home_ / result);
     }
   }
   /// A suite of two runs, one after the other, that is killed after the first.
   void begin_suite(const Words& more, const std::string& first = "a") {
     kill_at(joined({"suite", "s", "--seeds", "1", "--jobs", "1", "--out", "o"}, more),
-            fmt::format("o.unfinished/in/runs/{}/seed-1/metrics.json", first));
+            fmt::format("o.unfinished/in/runs/{}/seed-1/metrics.json", first), "o");
   }
   CommandResult go_on(const Words& more) {
     return lcs(joined({"suite", "s", "--seeds", "1", "--jobs", "1", "--out", "o"}, more));
@@ -164,7 +171,7 @@ TEST_F(GoingOn, SuiteStopsIfAFileIsChangedBetweenTwoOfItsRuns) {
 
 TEST_F(GoingOn, SuiteOfFiguresKeepsItsRunsUntilItIsCommitted) {
   const Words suite{"suite", "s", "--seeds", "1", "--jobs", "1", "--keep", "figures", "--out", "o"};
-  kill_at(suite, "o.unfinished/in/suite.json");
+  kill_at(suite, "o.unfinished/in/suite.json", "o");
   const CommandResult result = lcs(suite);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("going on, with 2 of the runs there already"), std::string::npos)
@@ -297,9 +304,10 @@ TEST_F(GoingOn, BaselineOfAnotherSceneIsTold) {
 
 class GoingOnWithASequence : public GoingOn {
  protected:
-  const Words euroc_{"generate", "s/a.yaml", "--frames", "3", "--out", "q", "--formats", "euroc"};
-  const Words coco_ = joined({"generate", "s/a.yaml", "--frames", "3", "--out", "q", "--formats"},
-                             {"coco", "--add"});
+  const Words euroc_{"generate", "s/a.yaml", "--set",     "frames=40",
+                     "--out",    "q",        "--formats", "euroc"};
+  const Words coco_ = joined(
+      {"generate", "s/a.yaml", "--set", "frames=40", "--out", "q", "--formats"}, {"coco", "--add"});
   static std::map<std::string, std::string> sequence(const fs::path& folder) {
     auto files = bytes_in(folder);
     files.erase(".lcs-written");
@@ -307,8 +315,7 @@ class GoingOnWithASequence : public GoingOn {
   }
   /// As soon as a frame is in the journal of the process.
   void kill_after_a_frame(const Words& words) {
-    bench::Command command(words, {.folder = home_});
-    const auto has_frame = [&] {
+    ASSERT_TRUE(is_killed(words, [&] {
       std::error_code error;
       for (const auto& entry : fs::directory_iterator(home_ / "q.unfinished" / "work", error)) {
         if (entry.path().filename().string().starts_with("frames-") &&
@@ -317,11 +324,7 @@ class GoingOnWithASequence : public GoingOn {
         }
       }
       return false;
-    };
-    while (command.is_running() && !has_frame()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    end(command);
+    })) << "it was done before it could be killed";
   }
 };
 
