@@ -122,6 +122,52 @@ TEST_F(OutputTest, AnUnfinishedResultIsKeptOnRequestAndTheNextGoesOnThere) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
 }
 
+TEST_F(OutputTest, AnUnfinishedResultStaysAsItIsWhenTheNextCannotBegin) {
+  {
+    Output first(top_ / "run", kFiles, Unfinished::kept);
+    write(first.staging() / "metrics.json", "{}");
+    first.keep();
+  }
+  const auto kept = bytes_in(top_ / "run.unfinished");
+  {
+    const FolderLock of_another(top_ / "run.unfinished");
+    ASSERT_TRUE(of_another.is_held());
+    const std::string busy =
+        refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
+    EXPECT_NE(busy.find("another process writes it"), std::string::npos) << busy;
+    EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+    const auto interrupted = [] { throw std::runtime_error("interrupted"); };
+    EXPECT_EQ(refusal_of<std::runtime_error>(
+                  [&] { Output(top_ / "run", kFiles, Unfinished::kept, interrupted); }),
+              "interrupted");
+    EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+  }
+  // Something fails once the folder is known as ours: "in" cannot be a folder.
+  fs::rename(top_ / "run.unfinished" / "in", top_ / "aside");
+  write(top_ / "run.unfinished" / "in", "no folder");
+  EXPECT_NE(refusal_of<OutputError>([&] {
+              Output(top_ / "run", kFiles, Unfinished::kept);
+            }).find("cannot create"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "run.unfinished" / "in"), "no folder");
+  fs::remove(top_ / "run.unfinished" / "in");
+  fs::rename(top_ / "aside", top_ / "run.unfinished" / "in");
+  EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+}
+
+TEST_F(OutputTest, TheMarkerOfAnUnfinishedResultIsNotWrittenAgain) {
+  {
+    Output first(top_ / "run", kFiles, Unfinished::kept);
+    write(first.staging() / "metrics.json", "{}");
+    first.keep();
+  }
+  const fs::path marker = top_ / "run.unfinished" / ".lcs-partial";
+  const auto before = fs::last_write_time(marker) - std::chrono::hours(1);
+  fs::last_write_time(marker, before);
+  { const Output next(top_ / "run", kFiles, Unfinished::kept); }
+  EXPECT_EQ(fs::last_write_time(marker), before);
+}
+
 TEST_F(OutputTest, AFolderInThePlaceOfTheUnfinishedResultIsRefusedAndUntouched) {
   write(top_ / "run.unfinished" / "notes.txt", "mine");
   const std::string refused =

@@ -365,8 +365,8 @@ void Output::prepare() {
   make_parents();
   try {
     make_staging();
-  } catch (const OutputError&) {
-    remove_all_made();
+  } catch (...) {
+    if (!is_kept_) remove_all_made();
     throw;
   }
   under_way().push_back(this);
@@ -397,8 +397,8 @@ void Output::remove_all_made() const {
     if (is_empty) remove_own(own_, names_);
   } else if (lock_) {
     try {
-      settle(own_, target_, names_,
-             is_folder());  // the process of `commit_all` may have been killed
+      // The process of `commit_all` may have been killed.
+      settle(own_, target_, names_, is_folder());
       remove_own(own_, names_);
     } catch (const std::exception&) {  // the next command does it
     }
@@ -497,41 +497,34 @@ void Output::take_free_name(int attempt) {
 }
 
 /// Takes TARGET.unfinished for `own_`, and its lock. Leaves `lock_` empty if another process has
-/// just removed the folder, or has it and is waited for.
+/// just removed the folder.
 void Output::take_unfinished() {
   own_ = target_;
   own_ += kUnfinished;
   std::error_code error;
   fs::create_directory(own_, error);
   if (error) fail_to("create", own_, error);
-  // Until it is known as ours, no exception may leave `lock_`: the folder would be tidied up.
-  const auto refuse = [&](const std::string& what) {
-    lock_.reset();
-    throw OutputError(what);
-  };
-  lock_.emplace(own_, unfinished_ == Unfinished::shared);
-  const int problem = lock_->problem();
+  is_kept_ = true;  // whatever fails: until the folder is known as ours, nothing in it is removed
+  const auto take_lock = [&] { lock_.emplace(own_, unfinished_ == Unfinished::shared); };
+  for (take_lock(); wait_ && lock_->is_of_another(); take_lock()) wait_();
   if (lock_->is_of_another()) {
-    lock_.reset();
-    if (wait_) return wait_();
-    refuse(fmt::format("{}: another process writes it; wait for it, or choose another place",
-                       target_.string()));
+    throw OutputError(fmt::format(
+        "{}: another process writes it; wait for it, or choose another place", target_.string()));
   }
+  const int problem = lock_->problem();
   const bool is_other = problem == ELOOP || problem == ENOTDIR;  // a link
   if (problem == ENOENT || (problem == 0 && !lock_->is_held() && lock_->is_possible())) {
     return lock_.reset();
   }
-  if (problem != 0 && !is_other) {
-    lock_.reset();
-    fail_to("use", own_, problem);
-  }
+  if (problem != 0 && !is_other) fail_to("use", own_, problem);
   if (is_other || (!has_marker(own_) && !is_just_begun(own_))) {
-    refuse(fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
+    throw OutputError(
+        fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
   }
   if (unfinished_ == Unfinished::shared) return;
   // A process was killed while it moved its result: before the end, or after. If the new result is
   // in its place, "in" may have the earlier one.
-  rename_by(own_ / kOut, target_, RENAME_NOREPLACE);
+  settle(own_, target_, names_, is_folder());
   const std::string committed = beginning(own_ / kCommit, kMostBytesOfDigest);
   const bool is_done =
       !committed.empty() && input::sha256_of_file(target_ / kRecordName) == committed;
@@ -544,14 +537,15 @@ void Output::take_unfinished() {
 void Output::make_staging() {
   constexpr int kMostAttempts = 1000;
   for (int attempt = 0; !lock_; ++attempt) {
-    if (attempt == kMostAttempts && !wait_) {
+    if (attempt == kMostAttempts) {
       throw OutputError(fmt::format("{} cannot be made or locked; {}", own_.string(), kAnother));
     }
     unfinished_ == Unfinished::removed ? take_free_name(attempt) : take_unfinished();
   }
-  write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
   is_kept_ = fs::exists(staging_);
+  // A marker that is there is not written again: a kill would leave a part of it.
+  if (!has_marker(own_)) write_file(own_ / kMarker, marker_text(own_.filename().string()));
   std::error_code error;
   fs::create_directory(staging_, error);
   if (!error && !is_folder()) fs::create_directory(own_ / kOut, error);
