@@ -119,6 +119,9 @@ def cases():
                never_torn=False)
     yield Case("generate all but bags", generate + ["coco,kitti,landmarks,flow,depth,tum"], made,
                files=one, whole_if="manifest.json", never_torn=False)
+    yield Case("generate after a part", generate + ["euroc"], made, files=one,
+               before=[generate + ["euroc", "--shard", "1/2"]], whole_if="manifest.json",
+               never_torn=False)
     for more in ["coco", "dsec", "mcap"]:
         yield Case(f"generate --add {more}", generate + [more, "--add"], made, files=one,
                    whole_if="manifest.json", earlier=[generate + ["euroc"]], never_torn=False)
@@ -463,6 +466,9 @@ class Trial:
             found = FINISHED.search(call.path)
             if found and call.result == 0 and not (self.bench.here / found[1]).exists():
                 return f"work is lost: {found[1]} was finished, and is gone"
+        for name in contents(self.template):  # of an earlier process
+            if ".unfinished/in/" in name and not (self.bench.here / name).exists():
+                return f"work is lost: {name} was there before, and is gone"
         return ""
 
     def repeat(self):
@@ -489,16 +495,22 @@ class Trial:
             return f"more than one line: {text}"
         return ""
 
-    def fault(self, call, action):
-        """Lets one call fail. Returns what is wrong, or ""; None if the call was not reached."""
+    def disturbed(self, call, action):
+        """How the command ends, the state and [lost work]; None if the call was not reached."""
         self.bench.restore(self.template)
         end, calls, is_reached = self.bench.traced(self.case.command, call.target, action)
         if not is_reached:
             return None
-        wrong = []
         state = self.state()
-        if state not in ("new", FAILED_RUNS) and end.code not in self.case.fine:
-            wrong.append(self.lost_work(calls))
+        may_lose = state in ("new", FAILED_RUNS) or end.code in self.case.fine
+        return end, state, [] if may_lose else [self.lost_work(calls)]
+
+    def fault(self, call, action):
+        """Lets one call fail. Returns what is wrong, or ""; None if the call was not reached."""
+        disturbed = self.disturbed(call, action)
+        if not disturbed:
+            return None
+        end, state, wrong = disturbed
         if end.code in self.case.fine:
             if state != "new":
                 wrong.append(f"exit code {end.code}, but {state}")
@@ -510,7 +522,7 @@ class Trial:
                 wrong.append(f"the cause ({CAUSES[action]}) is not named: "
                              f"{' | '.join(said(end.err))[:300]}")
             place = call.path.split("/")[0].split(".partial-")[0]
-            if place not in end.err:
+            if (str(self.bench.here) if place == "." else place) not in end.err:
                 wrong.append(f"{place} is not named: {' | '.join(said(end.err))[:300]}")
             if state not in ("old", "new", "growing"):
                 wrong.append(f"neither old nor new: {state}")
@@ -519,14 +531,10 @@ class Trial:
 
     def crash(self, call, action):
         """Kills after one call. Returns what is wrong, or ""; None if the call was not reached."""
-        self.bench.restore(self.template)
-        end, calls, is_reached = self.bench.traced(self.case.command, call.target, action)
-        if not is_reached:
+        disturbed = self.disturbed(call, action)
+        if not disturbed:
             return None
-        wrong = []
-        state = self.state()
-        if state not in ("new", FAILED_RUNS) and end.code not in self.case.fine:
-            wrong.append(self.lost_work(calls))
+        end, state, wrong = disturbed
         is_told = state == FAILED_RUNS and not call.is_first and \
             action in ("kill", "kill-torn")
         if self.case.never_torn and not is_told and state not in ("old", "new", "growing"):

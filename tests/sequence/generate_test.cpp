@@ -23,6 +23,7 @@
 #include "tests/sequence/rows.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/sequences.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/csv.h"
 #include "tools/input/sha256.h"
@@ -365,17 +366,6 @@ class Generate : public testing::Test {
   fs::path folder() const { return home_.path() / "sequence"; }
   /// Where the frames are until all are finished.
   fs::path unfinished() const { return home_.path() / "sequence.unfinished"; }
-  /// Whether some process has finished a frame: it has a row behind the three lines of the head.
-  bool has_frame() const {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(unfinished() / "work", error)) {
-      if (entry.path().filename().string().starts_with("frames-") &&
-          std::ranges::count(read_file(entry.path()), '\n') > 3) {
-        return true;
-      }
-    }
-    return false;
-  }
   const bench::TemporaryFolder home_;
 };
 
@@ -636,7 +626,7 @@ TEST_F(Generate, AFormatThatIsNotAddedToItsEndIsAddedByTheSameCommand) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
   const std::vector<std::string> add{"--out", folder(), "--formats", "flow", "--add", "--quiet"};
   bench::Command command(arguments(add), {.folder = home_.path()});
-  while (!has_frame() && command.is_running()) {
+  while (!bench::has_frame(unfinished()) && command.is_running()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   command.send(SIGKILL);
@@ -662,7 +652,7 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
   const auto whole = in_one_go();
   for (const int signal : {SIGKILL, SIGTERM}) {
     bench::Command command(arguments({"--out", folder(), "--quiet"}), {.folder = home_.path()});
-    while (!has_frame() && command.is_running()) {
+    while (!bench::has_frame(unfinished()) && command.is_running()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     command.send(signal);

@@ -13,6 +13,7 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
+#include "tests/tools/sequences.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace lcs {
@@ -315,16 +316,8 @@ class GoingOnWithASequence : public GoingOn {
   }
   /// As soon as a frame is in the journal of the process.
   void kill_after_a_frame(const Words& words) {
-    ASSERT_TRUE(is_killed(words, [&] {
-      std::error_code error;
-      for (const auto& entry : fs::directory_iterator(home_ / "q.unfinished" / "work", error)) {
-        if (entry.path().filename().string().starts_with("frames-") &&
-            std::ranges::count(read(entry.path()), '\n') > 3) {
-          return true;
-        }
-      }
-      return false;
-    })) << "it was done before it could be killed";
+    ASSERT_TRUE(is_killed(words, [&] { return bench::has_frame(home_ / "q.unfinished"); }))
+        << "it was done before it could be killed";
   }
 };
 

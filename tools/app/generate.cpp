@@ -16,7 +16,6 @@
 #include "sim/simulation.h"
 #include "tools/app/how_made.h"
 #include "tools/bench/detector.h"
-#include "tools/files/csv.h"
 #include "tools/files/output.h"
 #include "tools/recording/warnings.h"
 #include "tools/sequence/generator.h"

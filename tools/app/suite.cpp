@@ -167,6 +167,12 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
   return planned;
 }
 
+suite::Runs runs_of(const std::vector<suite::PlannedScenario>& plan) {
+  suite::Runs runs;
+  for (const suite::PlannedScenario& one : plan) runs.emplace_back(one.name, one.seeds);
+  return runs;
+}
+
 SuitePlan plan_scenarios(const SuiteRequest& request, int seeds,
                          const std::optional<suite::SuiteResult>& former) {
   SuitePlan planned;
@@ -181,11 +187,9 @@ SuitePlan plan_scenarios(const SuiteRequest& request, int seeds,
     throw std::runtime_error(
         fmt::format("{} (the parts of a suite have to agree on all its scenarios)", one.error));
   }
-  suite::Runs whole;
-  for (const suite::PlannedScenario& one : planned.plan) whole.emplace_back(one.name, one.seeds);
   std::set<std::pair<std::string, std::uint64_t>> runs;
-  planned.part_of =
-      choose_part(request, std::move(whole), suite::estimated_seconds(planned.plan, former), runs);
+  planned.part_of = choose_part(request, runs_of(planned.plan),
+                                suite::estimated_seconds(planned.plan, former), runs);
   suite::keep_runs(planned.plan, runs);
   return planned;
 }
@@ -209,9 +213,7 @@ nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& pl
   facts["split"] = request.worlds.split;
   add_program(facts, sim::versions());
   add_changed_program(facts);
-  suite::Runs runs;
-  for (const suite::PlannedScenario& one : planned.plan) runs.emplace_back(one.name, one.seeds);
-  add_part(facts, request.shard, runs);
+  add_part(facts, request.shard, runs_of(planned.plan));
   return facts;
 }
 

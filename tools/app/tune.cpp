@@ -15,7 +15,6 @@
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
-#include "tools/input/input_file.h"
 #include "tools/input/message.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/evaluations.h"

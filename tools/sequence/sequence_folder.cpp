@@ -107,7 +107,7 @@ bool SequenceFolder::is_complete(const bench::Provenance::Json& facts) {
       throw bench::OutputError(
           fmt::format("{}: {}; remove the folder to make it anew", target().string(), damage));
     }
-    if (other_than(*finished_).empty()) return true;
+    if (bench::difference(*finished_, {.facts = facts_, .read = {}}).empty()) return true;
   } else if (adds_) {
     throw bench::OutputError(
         fmt::format("{} holds no finished sequence to add formats to; leave --add out to make one, "
@@ -180,11 +180,16 @@ void SequenceFolder::refresh() {
   }
 }
 
-bool SequenceFolder::is_whole(int frame) {
-  refresh();
+/// The entry of a frame, by any process; null if there is none yet.
+const FrameEntry* SequenceFolder::find(int frame) {
+  if (!entries_.contains(frame)) refresh();
   const auto found = entries_.find(frame);
-  return found != entries_.end() &&
-         std::ranges::all_of(found->second.files, [&](const FileRecord& file) {
+  return found == entries_.end() ? nullptr : &found->second;
+}
+
+bool SequenceFolder::is_whole(int frame) {
+  const FrameEntry* const entry = find(frame);
+  return entry && std::ranges::all_of(entry->files, [&](const FileRecord& file) {
            return input::sha256_of_file(staging() / file.path) == file.sha256;
          });
 }
@@ -195,9 +200,7 @@ int SequenceFolder::recorded() {
 }
 
 const FrameEntry& SequenceFolder::read(int frame) {
-  refresh();
-  const auto found = entries_.find(frame);
-  if (found != entries_.end()) return found->second;
+  if (const FrameEntry* const entry = find(frame)) return *entry;
   throw std::runtime_error(fmt::format("{}: frame {} is not finished", target().string(), frame));
 }
 

@@ -85,6 +85,7 @@ class SequenceFolder {
   std::filesystem::path plan_file() const;
   void begin();
   void refresh();
+  const FrameEntry* find(int frame);
   void take_earlier() const;
   std::string other_than(const bench::Provenance& there,
                          std::span<const std::string_view> but = {}) const;
