@@ -1,11 +1,12 @@
 # One precompiled header for the libraries of the bench: the headers that most of their files include.
 file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
 add_library(lcs_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-target_link_libraries(lcs_precompiled PRIVATE Eigen3::Eigen fmt::fmt opencv_core)
+target_link_libraries(lcs_precompiled PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json
+  opencv_core)
 target_precompile_headers(lcs_precompiled PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array>
   <chrono> <cmath> <cstdint> <filesystem> <fmt/format.h> <fmt/ranges.h> <functional> <map> <memory>
-  <numeric> <opencv2/core.hpp> <optional> <set> <span> <stdexcept> <string> <string_view> <utility>
-  <variant> <vector>)
+  <nlohmann/json.hpp> <numeric> <opencv2/core.hpp> <optional> <set> <span> <stdexcept> <string>
+  <string_view> <utility> <variant> <vector>)
 
 # The filter is left out: it must compile without OpenCV and fmt. So are programs and the Python
 # module, whose flags differ.

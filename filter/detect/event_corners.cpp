@@ -10,28 +10,28 @@ namespace lcs {
 namespace {
 
 template <std::size_t N>
-using Circle = std::array<std::array<int, 2>, N>;
+using Ring = std::array<std::array<int, 2>, N>;
 
 /// Bresenham's circles, counter-clockwise from the pixel below the centre.
-constexpr Circle<16> kSmall{{{0, 3},
-                             {1, 3},
-                             {2, 2},
-                             {3, 1},
-                             {3, 0},
-                             {3, -1},
-                             {2, -2},
-                             {1, -3},
-                             {0, -3},
-                             {-1, -3},
-                             {-2, -2},
-                             {-3, -1},
-                             {-3, 0},
-                             {-3, 1},
-                             {-2, 2},
-                             {-1, 3}}};
-constexpr Circle<20> kLarge{{{0, 4},   {1, 4},  {2, 3},  {3, 2},  {4, 1},   {4, 0},   {4, -1},
-                             {3, -2},  {2, -3}, {1, -4}, {0, -4}, {-1, -4}, {-2, -3}, {-3, -2},
-                             {-4, -1}, {-4, 0}, {-4, 1}, {-3, 2}, {-2, 3},  {-1, 4}}};
+constexpr Ring<16> kSmall{{{0, 3},
+                           {1, 3},
+                           {2, 2},
+                           {3, 1},
+                           {3, 0},
+                           {3, -1},
+                           {2, -2},
+                           {1, -3},
+                           {0, -3},
+                           {-1, -3},
+                           {-2, -2},
+                           {-3, -1},
+                           {-3, 0},
+                           {-3, 1},
+                           {-2, 2},
+                           {-1, 3}}};
+constexpr Ring<20> kLarge{{{0, 4},   {1, 4},  {2, 3},  {3, 2},  {4, 1},   {4, 0},   {4, -1},
+                           {3, -2},  {2, -3}, {1, -4}, {0, -4}, {-1, -4}, {-2, -3}, {-3, -2},
+                           {-4, -1}, {-4, 0}, {-4, 1}, {-3, 2}, {-2, 3},  {-1, 4}}};
 /// Least and greatest length of the arc of a corner.
 constexpr int kSmallLeast = 3, kSmallMost = 6, kLargeLeast = 4, kLargeMost = 8;
 
@@ -53,7 +53,7 @@ ArcStar::ArcStar(int width_px, int height_px)
 
 /// The number of pixels of the arc of the newest events, at least `least`.
 template <std::size_t N>
-int ArcStar::newest_arc(const Circle<N>& circle, int x, int y, bool is_on, int least) const {
+int ArcStar::newest_arc(const Ring<N>& circle, int x, int y, bool is_on, int least) const {
   std::array<std::int64_t, N> t_ns;
   for (std::size_t i = 0; i < N; ++i) {
     t_ns[i] = at(x + circle[i][0], y + circle[i][1]).surface_ns[is_on];

@@ -10,8 +10,6 @@
 
 namespace lcs {
 
-constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
-
 /// b: weight of a neighbour at the cut-off distance.
 const double kBeyond = std::exp(-0.5 * kFar * kFar);
 
@@ -91,7 +89,7 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes,
 void Coupling::follow(std::span<const Node> nodes, const PointGrid& grid) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].tells) continue;
-    double least2 = kInfinity_px;
+    double least2 = std::numeric_limits<double>::infinity();
     grid.visit_within(nodes[i].place_px, reach_px_[i], [&](int j, double apart2) {
       if (!nodes[j].tells || apart2 > least2 || apart2 > reach_px_[j] * reach_px_[j]) return;
       beliefs_[i] = apart2 < least2 ? beliefs_[j] : std::max(beliefs_[i], beliefs_[j]);

@@ -9,7 +9,7 @@ namespace {
 /// Shorter steps count as zero time: speeds would be rounding errors.
 constexpr double kShortestStep_s = 1e-6;
 
-constexpr double kMostRate_radps = 1000;
+constexpr double kMostTurn_radps = 1000;
 /// As a standard deviation it says already that nothing is known.
 constexpr double kMostTurn_rad = 1000;
 
@@ -27,7 +27,7 @@ std::optional<Fault> fault_of(const EgoMotion& m) {
   }
   if (m.dt_s < 0) return Fault::time_back;
   if (m.dt_s > kLongestStep_s) return Fault::time_jump;
-  if (!(m.v_C_mps.norm() <= kMostSpeed_mps && m.w_C_radps.norm() <= kMostRate_radps &&
+  if (!(m.v_C_mps.norm() <= kMostSpeed_mps && m.w_C_radps.norm() <= kMostTurn_radps &&
         m.velocity_sigma_mps <= kMostSpeed_mps && m.unseen_turn_rad <= kMostTurn_rad)) {
     return Fault::motion_too_fast;
   }

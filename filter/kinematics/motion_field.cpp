@@ -28,7 +28,7 @@ inline Vec2 printed_rotation(const Vec2& x, const Eigen::Vector3d& w, double f) 
 }
 
 /// Coordinates beyond the range of int count as infinite.
-const double kInfinity_px = std::numeric_limits<int>::max();
+const double kFarthest_px = std::numeric_limits<int>::max();
 
 }  // namespace
 
@@ -52,7 +52,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       parameters_(parameters),
       ground_(motion.ground),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
-  if (moving_ && std::abs(v_C_mps_.z()) * kInfinity_px > focal_px_ * v_C_mps_.head<2>().norm()) {
+  if (moving_ && std::abs(v_C_mps_.z()) * kFarthest_px > focal_px_ * v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
   }
 }
@@ -76,7 +76,7 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
 /// their place.
 Vec2 MotionField::rotated(const Vec2& x_px) const {
   const Vec2 x = rotated_unbounded(x_px);
-  return x.cwiseAbs().maxCoeff() < kInfinity_px ? x : x_px;
+  return x.cwiseAbs().maxCoeff() < kFarthest_px ? x : x_px;
 }
 
 Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
@@ -134,7 +134,7 @@ double MotionField::advanced_ratio(double depth_ratio) const {
 Vec2 MotionField::origin(const Vec2& x_px) const {
   if (foe_) return *foe_;
   if (!moving_) return centre_px_;
-  return x_px - direction(x_px) * kInfinity_px;
+  return x_px - direction(x_px) * kFarthest_px;
 }
 
 }  // namespace lcs

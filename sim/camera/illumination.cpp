@@ -8,7 +8,7 @@ namespace lcs::sim {
 namespace {
 
 /// Closer than this, the light of the lamps stays constant, because lamps are not points.
-constexpr float kNearest_m = 0.3F;
+constexpr float kNearestLamp_m = 0.3F;
 /// Reflectance of dense fog.
 constexpr float kAirlight = 0.5F;
 constexpr double kKoschmieder = 3.912;  // -log(0.02)
@@ -46,7 +46,7 @@ Illumination::Illumination(const scenario::Image& image, const Optics& camera)
 
 float Illumination::lamps(int x, int y, float distance_m) const {
   if (lamps_times_m2_.empty()) return 0;
-  const float d = std::max(distance_m, kNearest_m);
+  const float d = std::max(distance_m, kNearestLamp_m);
   return lamps_times_m2_(y, x) / (d * d);
 }
 

@@ -73,7 +73,7 @@ cv::Mat2d sample_rays(const Optics& optics) {
 }
 
 /// Slope at the middle of three values: the smaller difference to those that are on its surface.
-float slope(float before, float here, float after) {
+float slope_on_surface(float before, float here, float after) {
   const float a = here - before, b = after - here;
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) ? (std::isnan(b) ? 0 : b) : a;
   return std::abs(a) < std::abs(b) ? a : b;
@@ -170,8 +170,8 @@ void LensRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {
       };
       const cv::Point right(1, 0), down(0, 1);
       const cv::Point2f off = at - cv::Point2f(nearest);
-      const float change = off.x * slope(beside(-right), w, beside(right)) +
-                           off.y * slope(beside(-down), w, beside(down));
+      const float change = off.x * slope_on_surface(beside(-right), w, beside(right)) +
+                           off.y * slope_on_surface(beside(-down), w, beside(down));
       depth_m(y, x) = 1 / std::clamp(w + change, w / 2, w * 2);
     }
   }

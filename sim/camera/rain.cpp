@@ -9,7 +9,7 @@ namespace lcs::sim {
 namespace {
 
 // Falling drops.
-constexpr double kNearest_m = 0.3;
+constexpr double kNearestDrop_m = 0.3;
 constexpr double kFarthest_m = 3;
 constexpr double kLeast_mm = 1;
 constexpr double kMost_mm = 6;         // larger drops break up
@@ -74,7 +74,7 @@ Rain::Rain(const scenario::Image::Rain& rain, const Pinhole& camera, std::uint64
     : rain_(rain), camera_(camera), seed_(scenario_seed) {
   if (rain_.rate_mmph <= 0) return;
   const double rays = camera_.width_px * camera_.height_px / std::pow(camera_.focal_px, 2);
-  const double volume_m3 = rays * (cube(kFarthest_m) - cube(kNearest_m)) / 3;
+  const double volume_m3 = rays * (cube(kFarthest_m) - cube(kNearestDrop_m)) / 3;
   const double lambda = decay(rain_.rate_mmph);
   expected_ = volume_m3 * kDensity / lambda * std::exp(-lambda * kLeast_mm);
   if (!(expected_ <= kMostStreaks)) {
@@ -85,7 +85,7 @@ Rain::Rain(const scenario::Image::Rain& rain, const Pinhole& camera, std::uint64
 }
 
 Rain::Streak Rain::draw_streak(RandomStream& random, double exposure_s) const {
-  const double near3 = cube(kNearest_m);
+  const double near3 = cube(kNearestDrop_m);
   const double z = std::cbrt(near3 + random.uniform() * (cube(kFarthest_m) - near3));
   const double diameter_mm =
       std::min(kMost_mm, kLeast_mm - std::log1p(-random.uniform()) / decay(rain_.rate_mmph));

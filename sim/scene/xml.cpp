@@ -14,7 +14,7 @@ namespace {
 
 /// Size limits of MJCF text with mesh vertices, and of assets: images, meshes, height fields.
 constexpr input::FileKind kModelFile{64 * input::kMebibyte, "give the path of an MJCF file"};
-constexpr input::FileKind kAssetFile{input::kGibibyte, "give a file of the kind that it is"};
+constexpr input::FileKind kNamedFile{input::kGibibyte, "give a file of the kind that it is"};
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;
@@ -90,7 +90,7 @@ void make_absolute(Element& root, const fs::path& file) {
                            "file '" + normal + "' is missing; put it there or correct the name");
       }
       // MuJoCo opens the file itself, and would block on a pipe.
-      const input::InputFile refused_if_unfit(normal, kAssetFile, source_of(e));
+      const input::InputFile refused_if_unfit(normal, kNamedFile, source_of(e));
       e.SetAttribute(key, normal.c_str());
     }
   };

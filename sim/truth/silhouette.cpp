@@ -12,7 +12,7 @@ namespace lcs::sim {
 namespace {
 
 // Larger silhouettes are measured on a coarser raster.
-constexpr double kMostPixels = 4e6;
+constexpr double kMostRasterPixels = 4e6;
 
 constexpr int kRound = 48;  // points per circle: error 0.2 % of the radius
 constexpr int kRings = 16;  // from pole to pole of an ellipsoid
@@ -135,7 +135,8 @@ double silhouette_px(const Pinhole& camera, const Pose& T_CO, const ConvexParts&
   if (outlines.empty()) return 0;
 
   const double area = double(high.x - low.x + 1) * double(high.y - low.y + 1);
-  const float scale = area > kMostPixels ? static_cast<float>(std::sqrt(kMostPixels / area)) : 1.F;
+  const float scale =
+      area > kMostRasterPixels ? static_cast<float>(std::sqrt(kMostRasterPixels / area)) : 1.F;
   // whole pixels, to keep the image's pixel grid
   const cv::Point2f origin(std::floor(low.x), std::floor(low.y));
   cv::Mat1b covered(static_cast<int>((high.y - origin.y) * scale) + 2,

@@ -175,8 +175,8 @@ class WheeledRover : public Rover {
                          "make the drive holonomic, or give start, heading, speed and phases");
     }
     for (const EgoPhase& phase : scenario.ego.phases) {
-      constexpr double kTolerance = 1e-6;
-      if (std::abs(std::sin(phase.direction_rad)) > kTolerance) {
+      constexpr double kSideways = 1e-6;
+      if (std::abs(std::sin(phase.direction_rad)) > kSideways) {
         throw input::Error({scenario.file.string(), 0},
                            "a wheeled rover cannot drive sideways: the ego's direction at {} s is "
                            "{:g} deg; make it 0 or 180 deg, or the drive holonomic",

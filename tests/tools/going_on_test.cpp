@@ -202,7 +202,8 @@ TEST_F(GoingOn, PartsOfDifferentScenesAreNotMerged) {
 TEST_F(GoingOn, PartsOfDifferentDetectorsAreNotMerged) {
   make_parts({"--detector-command", "python3 det.py"}, {"--detector-command", "python3  det.py"},
              [] {});
-  expect_refused({"merge", "p1", "p2", "--out", "m"}, "arguments differs ('[");
+  expect_refused({"merge", "p1", "p2", "--out", "m"},
+                 "detector_command differs ('python3 det.py' and 'python3  det.py')");
 }
 
 TEST_F(GoingOn, PartsOfOneDetectorInDifferentStatesAreNotMerged) {

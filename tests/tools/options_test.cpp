@@ -184,11 +184,14 @@ TYPED_TEST(Rows, ComeBackFromTheCommandLineThatTheyMake) {
   }
 }
 
-TEST(RowsOfDetectors, SelectOnlyAProgramInAChild) {
-  EXPECT_EQ(app::arguments_of(app::DetectorChoice{"klt", "", 30, ""}), Arguments());
-  EXPECT_EQ(app::arguments_of(app::DetectorChoice{"", "./mine", 2.5, ""}),
-            (Arguments{"--detector-command", "./mine", "--detector-timeout", "2.5"}));
-  EXPECT_EQ(app::arguments_of(app::DetectorChoice{"", "", 2.5, ""}), Arguments());
+TEST(RowsOfDetectors, LimitOfTimeGoesWithAProgramAlone) {
+  const auto arguments = [](const app::DetectorChoice& choice) {
+    return app::arguments_of(app::RunRequest{.detector = choice});
+  };
+  EXPECT_EQ(arguments({"klt", "", 30, ""}), (Arguments{"run", "--detector", "klt"}));
+  EXPECT_EQ(arguments({"", "./mine", 2.5, ""}),
+            (Arguments{"run", "--detector-command", "./mine", "--detector-timeout", "2.5"}));
+  EXPECT_EQ(arguments({"", "", 2.5, ""}), Arguments{"run"});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "tools/comparators/detectors.h"
 
@@ -15,9 +14,6 @@ struct DetectorChoice {
   double timeout_s = comparators::Program{}.timeout_s;
   std::string detections;  ///< CSV file or folder; "": none
 };
-
-/// The options that select the same detector program in a child process; empty for other detectors.
-std::vector<std::string> arguments_of(DetectorChoice choice);
 
 /// The detector. Records the files that a detector's command names as inputs of this process.
 /// \throws std::invalid_argument as the `comparators::spec_of` functions do.

@@ -21,12 +21,12 @@ struct Start {
   std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
   std::clock_t cpu = std::clock();
 };
-Start start;
+Start request_start;
 
 }  // namespace
 
 void note_start() {
-  start = {};
+  request_start = {};
 }
 
 void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
@@ -61,10 +61,10 @@ void add_changed_program(nlohmann::ordered_json& facts) {
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
                     const bench::Provenance& provenance) {
   nlohmann::ordered_json json{{"command", command}};
-  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start.date));
+  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(request_start.date));
   json["wall_s"] =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start.wall).count();
-  json["cpu_s"] = static_cast<double>(std::clock() - start.cpu) / CLOCKS_PER_SEC;
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - request_start.wall).count();
+  json["cpu_s"] = static_cast<double>(std::clock() - request_start.cpu) / CLOCKS_PER_SEC;
   json.update(provenance.json());
   bench::write_file(folder / bench::kHowMadeFile, bench::json_text(json, 1) + '\n');
 }

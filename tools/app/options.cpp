@@ -402,13 +402,4 @@ Options options_of(TuneRequest& request) {
   return all;
 }
 
-Texts arguments_of(DetectorChoice choice) {
-  choice.name = choice.detections = "";
-  DetectorChoice usual;
-  Options all(""), without("");
-  add_detector(all, choice);
-  add_detector(without, usual);
-  return words_of(all, without);
-}
-
 }  // namespace lcs::app

@@ -13,6 +13,7 @@
 
 #include "scenarios/scenes.h"
 #include "tools/app/how_made.h"
+#include "tools/app/run.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detectors.h"
@@ -30,6 +31,10 @@ namespace lcs::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+bool of_worlds(const SuiteRequest& request) {
+  return !request.worlds.split.empty();
+}
 
 /// The earlier suite at the target, if it is readable. Its times only help to schedule the runs.
 std::optional<suite::SuiteResult> former_suite(const fs::path& target) {
@@ -204,7 +209,8 @@ void forget_folders(suite::SuiteResult& result) {
 /// The settings on which the runs of a suite depend, and the runs.
 nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& planned) {
   nlohmann::ordered_json facts{{"detector", app::spec_of(request.detector).name},
-                               {"arguments", arguments_of(request.detector)},
+                               {"detector_command", request.detector.command},
+                               {"detector_timeout_s", request.detector.timeout_s},
                                {"detections", request.detector.detections},
                                {"beside", request.beside},
                                {"settings", request.sets},
@@ -248,30 +254,67 @@ void begin(bench::Output& folder, const bench::Provenance& provenance,
 SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
   std::optional<suite::SuiteResult> times;
   if (!request.times.empty()) times = suite::read_suite(request.times);
-  const bool of_worlds = !request.worlds.split.empty();
-  const int seeds = request.seeds.value_or(of_worlds ? 1 : 3);
-  return of_worlds ? plan_worlds(request, seeds, times, caller)
-                   : plan_scenarios(request, seeds, times);
+  const int seeds = request.seeds.value_or(of_worlds(request) ? 1 : 3);
+  return of_worlds(request) ? plan_worlds(request, seeds, times, caller)
+                            : plan_scenarios(request, seeds, times);
 }
 
 namespace {
+
+/// A run with one of the detectors, without its outputs.
+RunRequest run_of(const SuiteRequest& request, const suite::PlannedScenario& planned,
+                  std::uint64_t seed, const suite::SuiteWatcher& watcher,
+                  const fs::path& recordings) {
+  RunRequest run{.scenario = planned.file.string(), .seed = seed, .sets = planned.sets};
+  if (watcher.is_own) run.detector = request.detector;
+  run.detector.name = watcher.detector == "lcs" ? "" : watcher.detector;
+  if (!run.detector.detections.empty()) {
+    const fs::path file = suite::detections_of(planned.name, seed);
+    run.detector.detections = (fs::path(run.detector.detections) / file).string();
+  }
+  if (!recordings.empty()) {
+    run.recorded = (recordings / suite::folder_of(planned, seed)).string();
+  }
+  return run;
+}
+
+/// The arguments of a child: the run with the first detector, beside which the others are run.
+Texts child_of(const SuiteRequest& request, const suite::PlannedScenario& planned,
+               std::uint64_t seed, std::span<const suite::SuiteWatcher> watchers,
+               const fs::path& recordings) {
+  const fs::path folder = suite::folder_of(planned, seed);
+  RunRequest run = run_of(request, planned, seed, watchers.front(), recordings);
+  run.out = (watchers.front().folder / folder).string();
+  run.keep = request.keep;
+  run.gzip = true;
+  run.video = false;
+  run.events = request.keep != bench::Keep::figures;
+  for (const suite::SuiteWatcher& other : watchers.subspan(1)) {
+    run.beside.push_back(other.detector + '=' + (other.folder / folder).string());
+  }
+  Texts words = arguments_of(run);
+  words.emplace_back("--quiet");
+  return words;
+}
 
 /// A suite while it is made.
 class Making {
  public:
   Making(const SuiteRequest& request, Caller& caller, SuiteWatch& watch)
-      : request_(request), caller_(caller), watch_(watch), own_(spec_.name) {
-    const std::set<std::string> watching = names_of_all(request_, own_);
-    if (!request_.recorded.empty()) comparators::require_corners_suffice(spec_);
-    planned_ = plan_suite(request_, caller_);
-    if (!request_.detector.detections.empty()) {
-      require_detections(request_.detector.detections, planned_);
+      : caller_(caller), watch_(watch) {
+    const comparators::DetectorSpec spec = app::spec_of(request.detector);
+    own_ = spec.name;
+    const std::set<std::string> watching = names_of_all(request, own_);
+    if (!request.recorded.empty()) comparators::require_corners_suffice(spec);
+    planned_ = plan_suite(request, caller_);
+    if (!request.detector.detections.empty()) {
+      require_detections(request.detector.detections, planned_);
     }
-    caller_.warn(seldom_meant(planned_.plan, spec_));
+    caller_.warn(seldom_meant(planned_.plan, spec));
     caller_.warn(bench::not_asked(criteria_of(planned_.plan), watching));
   }
 
-  SuiteMade made();
+  SuiteMade made(const SuiteRequest& request);
 
  private:
   struct Results {
@@ -279,19 +322,16 @@ class Making {
     std::vector<suite::SuiteResult> others;
   };
 
-  Results run_all(bench::Output& folder);
-  std::vector<suite::SuiteResult> run(bench::Output& folder,
+  Results run_all(const SuiteRequest& request, bench::Output& folder);
+  std::vector<suite::SuiteResult> run(const SuiteRequest& request, bench::Output& folder,
                                       const std::vector<std::string>& detectors,
                                       const fs::path& recordings);
-  std::vector<suite::SuiteWatcher> watchers(bench::Output& folder,
+  std::vector<suite::SuiteWatcher> watchers(const SuiteRequest& request, bench::Output& folder,
                                             const std::vector<std::string>& detectors) const;
 
-  const SuiteRequest& request_;
   Caller& caller_;
   SuiteWatch& watch_;
-  const comparators::DetectorSpec spec_ = app::spec_of(request_.detector);
-  const std::string own_;  ///< name of the suite's own detector
-  const bool of_worlds_ = !request_.worlds.split.empty();
+  std::string own_;  ///< name of the suite's own detector
   SuitePlan planned_;
   bench::Provenance provenance_;
   std::size_t whole_ = 0, total_ = 0;  ///< runs
@@ -299,9 +339,10 @@ class Making {
 
 /// Where the runs of each detector go. Runs of which only the figures are kept are no part of the
 /// result, and stay until it is committed.
-std::vector<suite::SuiteWatcher> Making::watchers(bench::Output& folder,
+std::vector<suite::SuiteWatcher> Making::watchers(const SuiteRequest& request,
+                                                  bench::Output& folder,
                                                   const std::vector<std::string>& detectors) const {
-  const bool are_kept = request_.keep != bench::Keep::figures;
+  const bool are_kept = request.keep != bench::Keep::figures;
   std::vector<suite::SuiteWatcher> all;
   for (const std::string& name : detectors) {
     const fs::path part = part_of(name, own_);
@@ -312,20 +353,25 @@ std::vector<suite::SuiteWatcher> Making::watchers(bench::Output& folder,
   return all;
 }
 
-std::vector<suite::SuiteResult> Making::run(bench::Output& folder,
+std::vector<suite::SuiteResult> Making::run(const SuiteRequest& request, bench::Output& folder,
                                             const std::vector<std::string>& detectors,
                                             const fs::path& recordings) {
-  const bool with_own = detectors.front() == own_;
   std::vector<suite::SuiteResult> results = suite::run_suite(
       planned_.plan,
-      {.watchers = watchers(folder, detectors),
-       .own_detector = with_own ? arguments_of(request_.detector) : std::vector<std::string>{},
-       .detections = with_own ? request_.detector.detections : "",
-       .keep = request_.keep,
-       .sets = request_.sets,
-       .recorded = recordings,
+      {.watchers = watchers(request, folder, detectors),
+       .run_of =
+           [&](const suite::PlannedScenario& planned, std::uint64_t seed,
+               const suite::SuiteWatcher& watcher) {
+             return arguments_of(run_of(request, planned, seed, watcher, recordings));
+           },
+       .child_of =
+           [&](const suite::PlannedScenario& planned, std::uint64_t seed,
+               std::span<const suite::SuiteWatcher> watchers) {
+             return child_of(request, planned, seed, watchers, recordings);
+           },
+       .sets = request.sets,
        .version = version_line(),
-       .jobs = jobs_at_once(request_.jobs),
+       .jobs = jobs_at_once(request.jobs),
        .former = former_suite(folder.target() / part_of(detectors.front(), own_)),
        .provenance = provenance_,
        .on_begin =
@@ -350,26 +396,27 @@ std::vector<suite::SuiteResult> Making::run(bench::Output& folder,
            }});
   caller_.check();
   for (suite::SuiteResult& result : results) {
-    if (request_.keep == bench::Keep::figures) forget_folders(result);
+    if (request.keep == bench::Keep::figures) forget_folders(result);
     result.part_of = planned_.part_of;
-    if (!of_worlds_) continue;
-    result.split = request_.worlds.split;
+    if (!of_worlds(request)) continue;
+    result.split = request.worlds.split;
     add_origins(result);
   }
   return results;
 }
 
 /// Detectors that need pictures cannot use a recording: they simulate in runs of their own.
-Making::Results Making::run_all(bench::Output& folder) {
+Making::Results Making::run_all(const SuiteRequest& request, bench::Output& folder) {
   std::vector<std::string> beside_own{own_}, apart;
-  for (const std::string& name : request_.beside) {
+  for (const std::string& name : request.beside) {
     const bool looks = comparators::spec_of(name).detector.sees_pictures;
-    (looks && !request_.recorded.empty() ? apart : beside_own).push_back(name);
+    (looks && !request.recorded.empty() ? apart : beside_own).push_back(name);
   }
-  std::vector<suite::SuiteResult> others = run(folder, beside_own, request_.recorded);
+  std::vector<suite::SuiteResult> others = run(request, folder, beside_own, request.recorded);
   Results results{.own = std::move(others.front()), .others = {}};
   others.erase(others.begin());
-  if (!apart.empty()) std::ranges::move(run(folder, apart, ""), std::back_inserter(others));
+  if (!apart.empty())
+    std::ranges::move(run(request, folder, apart, ""), std::back_inserter(others));
   results.others = std::move(others);
   for (const suite::SuiteResult& other : results.others) {
     results.own.beside.push_back(other.detector);
@@ -377,25 +424,24 @@ Making::Results Making::run_all(bench::Output& folder) {
   return results;
 }
 
-SuiteMade Making::made() {
+SuiteMade Making::made(const SuiteRequest& request) {
   std::string recorded;
-  if (!request_.recorded.empty()) {
-    recorded =
-        fmt::format("{}, {}", request_.recorded, suite::read_suite(request_.recorded).version);
+  if (!request.recorded.empty()) {
+    recorded = fmt::format("{}, {}", request.recorded, suite::read_suite(request.recorded).version);
   }
-  provenance_ = bench::provenance_of(facts_of(request_, planned_));
-  const std::optional<suite::SuiteResult> baseline = baseline_of(request_.place);
-  note_longer(request_.place.out, request_.place.is_named(), "runs",
+  provenance_ = bench::provenance_of(facts_of(request, planned_));
+  const std::optional<suite::SuiteResult> baseline = baseline_of(request.place);
+  note_longer(request.place.out, request.place.is_named(), "runs",
               provenance_.facts.at("runs").get<std::size_t>(), caller_);
-  bench::Output folder(request_.place.out, suite::suite_files(), bench::Unfinished::kept);
-  begin(folder, provenance_, request_);
+  bench::Output folder(request.place.out, suite::suite_files(), bench::Unfinished::kept);
+  begin(folder, provenance_, request);
   try {
-    Results results = run_all(folder);
+    Results results = run_all(request, folder);
     watch_.wipe();
     results.own.recorded = recorded;
-    write_how_made(folder, request_, provenance_);
-    if (of_worlds_) write_sheets(folder.staging(), planned_.plan, results.own, caller_);
-    return finish_suite(folder, request_.place, std::move(results.own), std::move(results.others),
+    write_how_made(folder, request, provenance_);
+    if (of_worlds(request)) write_sheets(folder.staging(), planned_.plan, results.own, caller_);
+    return finish_suite(folder, request.place, std::move(results.own), std::move(results.others),
                         baseline, caller_);
   } catch (const Interrupted&) {
     watch_.wipe();
@@ -409,7 +455,7 @@ SuiteMade Making::made() {
 }  // namespace
 
 SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
-  return Making(request, caller, watch).made();
+  return Making(request, caller, watch).made(request);
 }
 
 }  // namespace lcs::app

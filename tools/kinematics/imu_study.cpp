@@ -15,18 +15,18 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
-constexpr std::array kDepths_m = {2.0, 4.0, 8.0};
+constexpr std::array kImuRates_hz = {1.0, 3.0, 10.0, 30.0};
+constexpr std::array kImuDepths_m = {2.0, 4.0, 8.0};
 constexpr std::array kRoughness_m = {0.0, 1e-3, 2.5e-3, 5e-3, 10e-3};
 constexpr double kBumpyWay_m = 3.5;  // length of the rough ground beyond its centre
 constexpr double kLongestBumps_s = 10;
 
 PointSet coarse_points(const StudyConfig& config) {
-  return geometric_points(config.camera, kDepths_m, 9, 7);
+  return geometric_points(config.camera, kImuDepths_m, 9, 7);
 }
 
 std::vector<double> rates(const StudyConfig& config) {
-  std::vector<double> all(kRates_hz.begin(), kRates_hz.end());
+  std::vector<double> all(kImuRates_hz.begin(), kImuRates_hz.end());
   const double own = config.scenario.camera.rate_hz;
   if (std::ranges::find(all, own) == all.end()) all.push_back(own);
   std::ranges::sort(all);

@@ -6,14 +6,14 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr std::array kDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0};
+constexpr std::array kStudyDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0};
 constexpr std::array kLenses_deg = {20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 110.0};
 constexpr int kSweeps = 3;
 
 }  // namespace
 
 PointSet study_points(const sim::Pinhole& camera) {
-  return geometric_points(camera, kDepths_m);
+  return geometric_points(camera, kStudyDepths_m);
 }
 
 int study_pieces(const StudyConfig& config) {

@@ -68,11 +68,6 @@ void add_command(CLI::App& app, const Command& command) {
   added.footer(command.help);
 }
 
-int fail(const std::string& message) {
-  tell(fmt::format("lcs: {}", message));
-  return kError;
-}
-
 /// The message for a first argument that is no command; "" if it is one, or none is given.
 std::string unknown_command(const std::vector<Command>& commands, int argc, char** argv) {
   if (argc < 2 || *argv[1] == '-') return "";
@@ -86,6 +81,11 @@ std::string unknown_command(const std::vector<Command>& commands, int argc, char
 }
 
 }  // namespace
+
+int fail(const std::string& message) {
+  tell(fmt::format("lcs: {}", message));
+  return kError;
+}
 
 int run_command_line(const std::vector<Command>& commands, const std::string& help, int argc,
                      char** argv) {

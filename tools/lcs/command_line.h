@@ -41,6 +41,9 @@ app::Options options_of(Quietable<Request>& chosen) {
   return all;
 }
 
+/// Tells on standard error why the program ends. \return its exit code.
+int fail(const std::string& message);
+
 /// \param help of the program, below the commands. \return the exit code.
 /// \throws what the command throws.
 int run_command_line(const std::vector<Command>& commands, const std::string& help, int argc,

@@ -16,7 +16,7 @@ struct CompareOptions {
   bool fail_on_regression = true;  ///< always
 };
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kCompareHelp = R"(Examples:
   lcs suite --out out/before
   lcs suite --out out/after --set filter.hypotheses.prior=0.05
   lcs compare out/before out/after
@@ -65,7 +65,7 @@ app::Options options_of(CompareOptions& options) {
 
 Command compare_command() {
   return command_of("List the figures that got better or worse between two suites, beyond noise",
-                    kHelp, &compare);
+                    kCompareHelp, &compare);
 }
 
 }  // namespace lcs::tools

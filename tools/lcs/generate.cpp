@@ -9,7 +9,7 @@ namespace {
 
 using GenerateOptions = Quietable<app::GenerateRequest>;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kGenerateHelp = R"(Examples:
   lcs generate scenarios/crossing.yaml --out data/crossing
   lcs generate scenarios/crossing.yaml --formats euroc,flow --frames 20 --seed 7 --out data/seed7
   lcs generate scenarios/crossing.yaml --for flow --out data/flow         formats by their use
@@ -67,8 +67,8 @@ ExitCode generate(const GenerateOptions& options) {
 }  // namespace
 
 Command generate_command() {
-  return command_of("Simulate a scenario and write it as a sequence that other tools read", kHelp,
-                    &generate);
+  return command_of("Simulate a scenario and write it as a sequence that other tools read",
+                    kGenerateHelp, &generate);
 }
 
 }  // namespace lcs::tools

@@ -10,7 +10,7 @@ namespace {
 
 using KinematicsOptions = Quietable<app::KinematicsRequest>;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kKinematicsHelp = R"(Examples:
   lcs kinematics                                    the camera and rover of scenarios/crossing.yaml
   lcs kinematics --config my_rover.yaml --out out/mine
   lcs kinematics --set "camera.fovy=90 deg" --set "ego.speed=2 m/s" --set imu.preset=tumvi
@@ -52,7 +52,7 @@ ExitCode kinematics(const KinematicsOptions& options) {
 
 Command kinematics_command() {
   return command_of("Measure when the motion model holds for a camera and rover, against the truth",
-                    kHelp, &kinematics);
+                    kKinematicsHelp, &kinematics);
 }
 
 }  // namespace lcs::tools

@@ -12,6 +12,7 @@
 
 #include "tools/files/output_file.h"
 #include "tools/input/message.h"
+#include "tools/lcs/command_line.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
@@ -41,11 +42,6 @@ through its camera and IMU, and the simulator's truth scores the filter.
 
 constexpr const char* kNoMemory =
     "not enough memory; raise ulimit -v where it is set, or choose a smaller camera or scene";
-
-int fail(const std::string& message) {
-  tell(fmt::format("lcs: {}", message));
-  return kError;
-}
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct MergeOptions {
   SuiteEndOptions end;
 };
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kMergeHelp = R"(Examples:
   lcs suite --worlds train --count 1000 --shard 1/2 --out part1     on one machine
   lcs suite --worlds train --count 1000 --shard 2/2 --out part2     on another
   lcs merge part1 part2 --out out/train
@@ -40,7 +40,7 @@ app::Options options_of(MergeOptions& options) {
 
 Command merge_command() {
   return command_of("Join the parts of a suite that several machines made (lcs suite --shard)",
-                    kHelp, &merge);
+                    kMergeHelp, &merge);
 }
 
 }  // namespace lcs::tools

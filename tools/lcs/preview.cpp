@@ -33,7 +33,7 @@ struct PreviewOptions {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kPreviewHelp = R"(Examples:
   lcs preview my_scenario.yaml                          out/preview/my_scenario.html
   lcs preview my_scenario.yaml --set "ego.speed=1 m/s" --out faster.html
   lcs preview my_scenario.yaml --mjcf world.xml         for MuJoCo's viewer: simulate world.xml
@@ -121,8 +121,8 @@ app::Options options_of(PreviewOptions& options) {
 }  // namespace
 
 Command preview_command() {
-  return command_of("Check a scenario before a run: its plan, three pictures, its problems", kHelp,
-                    &preview);
+  return command_of("Check a scenario before a run: its plan, three pictures, its problems",
+                    kPreviewHelp, &preview);
 }
 
 }  // namespace lcs::tools

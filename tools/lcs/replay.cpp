@@ -17,7 +17,7 @@ struct ReplayOptions {
   bool quiet = false;
 };
 
-constexpr const char* kHelp =
+constexpr const char* kReplayHelp =
     R"(Examples:
   lcs replay data/crossing                        a sequence of lcs generate: the verdicts of lcs run
   lcs replay MH_01_easy                           EuRoC: motion by its IMU, from the start of its truth
@@ -66,7 +66,7 @@ app::Options options_of(ReplayOptions& options) {
 }  // namespace
 
 Command replay_command() {
-  return command_of("Run the LCS filter (or a comparator) on a recording", kHelp, &replay);
+  return command_of("Run the LCS filter (or a comparator) on a recording", kReplayHelp, &replay);
 }
 
 }  // namespace lcs::tools

@@ -24,7 +24,7 @@ struct RunOptions {
   bool quiet = false;
 };
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kRunHelp = R"(Examples:
   lcs run scenarios/crossing.yaml
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.hypotheses.prior=0.05
@@ -135,7 +135,7 @@ Command run_command() {
   return command_of(
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
       "score it by the truth",
-      kHelp, &run);
+      kRunHelp, &run);
 }
 
 }  // namespace lcs::tools

@@ -14,7 +14,7 @@ namespace {
 
 using ScoreOptions = Quietable<app::ScoreRequest>;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kScoreHelp = R"(Examples:
   lcs score out/crossing                                    the figures of a run
   lcs score out/suite                                       the figures of all runs of a suite
   lcs score out/crossing --detections mine.csv              another detector on the same frames
@@ -57,7 +57,7 @@ ExitCode score(const ScoreOptions& options) {
 
 Command score_command() {
   return command_of("Score a run by its files, or someone else's detector on the same frames",
-                    kHelp, &score);
+                    kScoreHelp, &score);
 }
 
 }  // namespace lcs::tools

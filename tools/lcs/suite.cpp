@@ -20,7 +20,7 @@ struct SuiteOptions {
   SuiteEndOptions end;
 };
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kSuiteHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
   lcs suite --seeds 1 --worst-first               quicker, and where to look first
   lcs suite --filter crossing --set filter.hypotheses.prior=0.05 --out out/r60
@@ -109,7 +109,7 @@ app::Options options_of(SuiteOptions& options) {
 
 Command suite_command() {
   return command_of("Run many scenarios with several seeds each, in parallel, and sum them up",
-                    kHelp, &suite);
+                    kSuiteHelp, &suite);
 }
 
 }  // namespace lcs::tools

@@ -45,7 +45,7 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::st
   const suite::RunResult& own = *runs.front();
   std::string figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bench::Metric& metric = bench::metric("rebel.f1");
+    const bench::Metric& metric = bench::metric(bench::kF1);
     const std::optional<double> f1 = suite::figure_of(*runs[i], metric.key);
     if (!f1) continue;
     const std::string by = runs.size() > 1 ? detectors[i] + " " : "";

@@ -10,7 +10,7 @@ namespace {
 
 using TuneOptions = Quietable<app::TuneRequest>;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kTuneHelp = R"(Examples:
   lcs suite --worlds train --count 200 --out out/train
   lcs suite --worlds validate --count 160 --out out/validate
   lcs tune out/train --validate out/validate              all learnt numbers
@@ -54,7 +54,7 @@ ExitCode tune(const TuneOptions& options) {
 }  // namespace
 
 Command tune_command() {
-  return command_of("Learn the filter's numbers from recorded runs", kHelp, &tune);
+  return command_of("Learn the filter's numbers from recorded runs", kTuneHelp, &tune);
 }
 
 }  // namespace lcs::tools

@@ -13,7 +13,7 @@ namespace {
 
 using WorldOptions = Quietable<app::WorldRequest>;
 
-constexpr const char* kHelp = R"(Examples:
+constexpr const char* kWorldHelp = R"(Examples:
   lcs world room --seed 7 --out my/room          my/room/room_7.yaml and its scene
   lcs run my/room/room_7.yaml                    as any other scenario
   lcs world street --pictures ~/photos           surfaces from a folder of pictures
@@ -49,7 +49,8 @@ ExitCode world(const WorldOptions& options) {
 }  // namespace
 
 Command world_command() {
-  return command_of("Draw a scenario and its scene from a seed, and write them", kHelp, &world);
+  return command_of("Draw a scenario and its scene from a seed, and write them", kWorldHelp,
+                    &world);
 }
 
 }  // namespace lcs::tools

@@ -12,10 +12,10 @@ namespace {
 
 /// A unit follows the first of successive figures that share it.
 std::string line(std::string_view head, const Metrics& metrics, bool with_undefined,
-                 std::initializer_list<const char*> keys) {
+                 std::initializer_list<std::string_view> keys) {
   std::string text = fmt::format("  {:<8}", head);
   std::string_view gap = " ", unit;
-  for (const char* key : keys) {
+  for (const std::string_view key : keys) {
     const Metric& metric = bench::metric(key);
     const std::optional<double> figure = value(metrics, metric.key);
     if (!figure && !with_undefined) continue;
@@ -35,16 +35,16 @@ std::string remark(std::string_view text) {
 /// The lines of figures that need a truth.
 std::string scores(const Metrics& metrics) {
   std::string text;
-  if (!value(metrics, "rebel.f1")) {
+  if (!value(metrics, kF1)) {
     text += line("rebels", metrics, true, {"rebel.false_corners_per_frame"});
     text += remark("nothing to find: no corner moves by itself for long enough");
   } else {
     text += line("rebels", metrics, true,
-                 {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
-                  "rebel.f1_distinct", "rebel.recall_radial"});
+                 {"rebel.precision", "rebel.recall", kF1, "rebel.f1_clear", "rebel.f1_distinct",
+                  "rebel.recall_radial"});
   }
   constexpr double kPoor = 0.7, kMuch = 0.1;
-  if (value(metrics, "rebel.f1").value_or(1) < kPoor) {
+  if (value(metrics, kF1).value_or(1) < kPoor) {
     text += line("F1 lost", metrics, true,
                  {"rebel.f1_lost_radial", "rebel.f1_lost_outline", "rebel.f1_lost_first_seen",
                   "rebel.f1_lost_tracked"});

@@ -29,7 +29,7 @@ constexpr Quantity kAny{Dimension::number, {-1e7, 1e7}};
 constexpr Quantity kRate{Dimension::frequency, {0, 100000, true}};
 constexpr Quantity kTimeShift{Dimension::time, {-1000, 1000}};
 constexpr Quantity kNoise{Dimension::number, {0, 1000}};
-constexpr int kMostPixels = 65536;
+constexpr int kMostSide_px = 65536;
 
 /// OpenCV's FileStorage requires "%YAML:1.0", whose colon YAML does not allow, and marks its
 /// matrices by a tag.
@@ -144,7 +144,7 @@ void set_size(Keys& keys, std::initializer_list<const char*> widths,
               std::initializer_list<const char*> heights, Lens& lens) {
   const auto pixels = [&](std::initializer_list<const char*> names) {
     const Value* value = keys.any_of(names);
-    return value ? static_cast<int>(input::as_integer(*value, keys.path(), 1, kMostPixels)) : 0;
+    return value ? static_cast<int>(input::as_integer(*value, keys.path(), 1, kMostSide_px)) : 0;
   };
   lens.width_px = pixels(widths);
   lens.height_px = pixels(heights);
@@ -226,8 +226,8 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   lens.cv_px = numbers[before + 3];
   if (const Value* size = keys.any_of({"resolution"})) {
     const std::vector<Value>& pair = input::as_list(*size, keys.path(), 2);
-    lens.width_px = static_cast<int>(input::as_integer(pair[0], keys.path(), 1, kMostPixels));
-    lens.height_px = static_cast<int>(input::as_integer(pair[1], keys.path(), 1, kMostPixels));
+    lens.width_px = static_cast<int>(input::as_integer(pair[0], keys.path(), 1, kMostSide_px));
+    lens.height_px = static_cast<int>(input::as_integer(pair[1], keys.path(), 1, kMostSide_px));
     lens.source = size->where;
   }
   const std::vector<double> coefficients =

@@ -19,7 +19,7 @@
 namespace lcs::replay {
 namespace {
 
-constexpr const char* kTruth = "state_groundtruth_estimate0";
+constexpr const char* kTruthFolder = "state_groundtruth_estimate0";
 constexpr const char* kMotionCapture = "mocap0";  // of TUM-VI
 constexpr double kGravity_mps2 = 9.81;
 // A recording without truth is assumed to be at rest for this time at its start.
@@ -163,7 +163,7 @@ void require_same(const fs::path& mav, const std::string& camera,
     }
   });
   read("odometry0", told.T_BS.inverse(), nothing_else);
-  read(kTruth, {}, nothing_else);
+  read(kTruthFolder, {}, nothing_else);
 }
 
 /// Sets the motion of a generated sequence from its own settings: the same bits as in the run.
@@ -219,13 +219,13 @@ std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySetti
 std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recorded& asked,
                                   Tally& tally) {
   constexpr double kSlowest_hz = 1, kFastest_hz = 990;
-  for (const char* name : {kTruth, kMotionCapture}) {
+  for (const char* name : {kTruthFolder, kMotionCapture}) {
     const fs::path file = mav / name / "data.csv";
     if (!fs::exists(file)) continue;
     const SensorCalibration calibration = calibration_in(mav / name);
     const TableTimes times = times_of(mav / name, calibration, asked, kSlowest_hz, kFastest_hz);
-    return name == kTruth ? read_truth_csv(file, times, tally)
-                          : read_body_poses_csv(file, times, tally);
+    return name == kTruthFolder ? read_truth_csv(file, times, tally)
+                                : read_body_poses_csv(file, times, tally);
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace {
 
 using RowOfPicture = std::map<std::string, const TextTable::Row*>;
 
-std::string name_of(std::string_view path) {
+std::string file_name(std::string_view path) {
   return fs::path(path).filename().string();
 }
 
@@ -24,7 +24,7 @@ RowOfPicture rows_by_name(const TextTable& table, std::size_t column,
   RowOfPicture rows;
   std::size_t found = 0;
   for (const TextTable::Row& row : table.rows) {
-    const std::string name = name_of(TextTable::field(row, column));
+    const std::string name = file_name(TextTable::field(row, column));
     const auto stem = name_of_stem.find(name);
     const bool is_stem = stem != name_of_stem.end();
     const std::string whole = is_stem ? stem->second : name;

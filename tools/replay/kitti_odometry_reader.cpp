@@ -12,13 +12,13 @@
 namespace lcs::replay {
 namespace {
 
-constexpr const char* kCameras[] = {"image_0", "image_2", "image_1", "image_3"};
+constexpr const char* kOdometryCameras[] = {"image_0", "image_2", "image_1", "image_3"};
 constexpr std::string_view kPrefix = "image_";
 
 /// The named camera, or else the first one present; "" if none is.
-std::string camera_in(const scenario::Recorded& asked) {
+std::string camera_of_sequence(const scenario::Recorded& asked) {
   if (!asked.camera.empty()) return asked.camera;
-  for (const char* name : kCameras) {
+  for (const char* name : kOdometryCameras) {
     if (fs::is_directory(asked.path / name)) return name;
   }
   return "";
@@ -73,12 +73,12 @@ void read_motion(const scenario::Recorded& asked, const fs::path& file, const si
 
 bool is_kitti_odometry(const fs::path& folder) {
   const bool any = std::ranges::any_of(
-      kCameras, [&](const char* name) { return fs::is_directory(folder / name); });
+      kOdometryCameras, [&](const char* name) { return fs::is_directory(folder / name); });
   return any && fs::exists(folder / "calib.txt");
 }
 
 Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
-  const std::string camera = camera_in(asked);
+  const std::string camera = camera_of_sequence(asked);
   if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
     throw input::Error(asked.source, "{} is not there; name a camera, as image_0",
                        (asked.path / camera).string());

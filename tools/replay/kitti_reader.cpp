@@ -89,7 +89,7 @@ struct Camera {
 
 /// Calibration of the rectified pictures ("sync"): P_rect is [K | K t] of the camera, in the
 /// rectified frame of camera 0.
-std::optional<Camera> read_calibration(const fs::path& drive, const std::string& number) {
+std::optional<Camera> camera_of_calibration(const fs::path& drive, const std::string& number) {
   for (const fs::path& folder : {drive, fs::absolute(drive / "..").lexically_normal()}) {
     if (!fs::exists(folder / "calib_cam_to_cam.txt")) continue;
     const KittiCalibration cameras(folder / "calib_cam_to_cam.txt");
@@ -104,7 +104,7 @@ std::optional<Camera> read_calibration(const fs::path& drive, const std::string&
 }
 
 /// The named camera, or else the first one present of image_00 to image_03.
-std::string camera_in(const scenario::Recorded& asked) {
+std::string camera_of_drive(const scenario::Recorded& asked) {
   if (!asked.camera.empty()) return asked.camera;
   for (const char* name : {"image_02", "image_00", "image_03", "image_01"}) {
     if (fs::is_directory(asked.path / name)) return name;
@@ -133,11 +133,12 @@ void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded
 bool is_kitti(const fs::path& folder) {
   scenario::Recorded asked;
   asked.path = folder;
-  return fs::is_directory(folder / "oxts" / "data") && fs::is_directory(folder / camera_in(asked));
+  return fs::is_directory(folder / "oxts" / "data") &&
+         fs::is_directory(folder / camera_of_drive(asked));
 }
 
 Recorded read_kitti(const scenario::Recorded& asked, bool) {
-  const std::string name = camera_in(asked);
+  const std::string name = camera_of_drive(asked);
   const fs::path camera_folder = asked.path / name;
   if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
     throw input::Error(asked.source, "{} is not there; name a camera, as image_02",
@@ -152,7 +153,7 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   }
   take_frames(clock, camera_folder / "data", recorded);
   sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
-  if (const auto camera = read_calibration(asked.path, name.substr(name.find('_') + 1))) {
+  if (const auto camera = camera_of_calibration(asked.path, name.substr(name.find('_') + 1))) {
     recorded.lens = camera->lens;
     T_BC = camera->T_BC;
   }

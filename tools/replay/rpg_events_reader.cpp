@@ -17,7 +17,7 @@ namespace lcs::replay {
 namespace {
 
 constexpr const char* kEvents = "events.txt";
-constexpr const char* kPictures = "images.txt";
+constexpr const char* kPictureList = "images.txt";
 
 /// The first four fields between blanks.
 std::array<std::string_view, 4> fields_in(std::string_view line) {
@@ -92,7 +92,7 @@ std::vector<sim::ImuSample> read_imu(const fs::path& file, Tally& tally) {
 }  // namespace
 
 bool is_rpg_events(const fs::path& folder) {
-  return fs::exists(folder / kEvents) && fs::exists(folder / kPictures);
+  return fs::exists(folder / kEvents) && fs::exists(folder / kPictureList);
 }
 
 /// The layout does not state where the camera is on the IMU. The motion is that of the IMU if
@@ -102,7 +102,7 @@ Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
   const auto picture = [&](const TextTable::Row& row) {
     return row.fields.size() == 2 ? asked.path / row.fields[1] : fs::path();
   };
-  take_list(read_table(asked.path / kPictures), kSecond_ns, picture, recorded);
+  take_list(read_table(asked.path / kPictureList), kSecond_ns, picture, recorded);
   recorded.events = read_events(asked.path / kEvents, recorded.tally);
   for (RecordedFrame& frame : recorded.frames) {
     const auto end = std::ranges::upper_bound(recorded.events, frame.t_ns, {}, &sim::Event::t_ns);

@@ -48,7 +48,7 @@ constexpr std::size_t kMostWhole = 60;
 constexpr std::ptrdiff_t kMostRemarks = 300;
 
 /// The figures in the page's tables.
-constexpr std::array<std::string_view, 13> kTable{"rebel.f1",
+constexpr std::array<std::string_view, 13> kTable{bench::kF1,
                                                   "rebel.precision",
                                                   "rebel.recall",
                                                   "rebel.f1_distinct",
@@ -63,7 +63,7 @@ constexpr std::array<std::string_view, 13> kTable{"rebel.f1",
                                                   "time.filter_over_fast"};
 
 /// The plotted columns of frames.csv.
-constexpr std::array<const char*, 10> kColumns{
+constexpr std::array<const char*, 10> kCurves{
     "t_s",           "precision", "recall",    "normal_edges", "rebel_edges", "normal_circles",
     "rebel_circles", "squares",   "dimension", "corners"};
 
@@ -169,7 +169,7 @@ Json frames_of(const fs::path& file) {
   const std::string header_line = line;
   const std::vector<std::string_view> header = bench::fields_of(header_line);
   Json columns = Json::object();
-  for (const char* name : kColumns) {
+  for (const char* name : kCurves) {
     if (std::ranges::find(header, name) == header.end()) {
       throw input::Error({file.string(), 1}, "has no column {}; {}", name, kFramesTable.remedy);
     }
@@ -381,7 +381,7 @@ std::set<std::string> shown_whole(const SuiteResult& suite, const suite::Verdict
   std::vector<std::pair<double, std::string>> order;
   for (const ScenarioResult& scenario : suite.scenarios) {
     const auto remark = std::ranges::find(verdict.remarks, scenario.name, &suite::Remark::scenario);
-    const auto f1 = suite::over_seeds(scenario, "rebel.f1");
+    const auto f1 = suite::over_seeds(scenario, bench::kF1);
     const auto rank = static_cast<double>(remark - verdict.remarks.end());
     const double place = rank < 0 ? rank : f1 ? f1->mean : 2;  // no F1 is below 0
     order.emplace_back(place, scenario.name);

@@ -37,8 +37,7 @@ article td, article th { padding: 0.1rem 0.5rem; }
 nav a { margin-right: 0.9em; }
 )";
 
-constexpr std::string_view kF1 = "rebel.f1";
-constexpr std::string_view kColumns[] = {kF1,
+constexpr std::string_view kColumns[] = {bench::kF1,
                                          "rebel.precision",
                                          "rebel.recall",
                                          "rebel.object_recall",
@@ -114,7 +113,7 @@ class WorldsPage : public TextPage {
         "<b class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
     add("<h2>{} by family</h2>\n<div "
         "class=\"scroll\"><table>\n<thead><tr><th>family</th>",
-        bench::metric(kF1).label);
+        bench::metric(bench::kF1).label);
     for (const SuiteResult* by : detectors_) add("<th>{}</th>", by->detector);
     add("</tr></thead>\n<tbody>\n");
     for (const auto& [family, worlds] : families_) {
@@ -128,7 +127,7 @@ class WorldsPage : public TextPage {
 
   void f1_cells(const Worlds& worlds) {
     for (const SuiteResult* by : detectors_) {
-      add("{}", cell(*by, worlds, bench::metric(kF1)));
+      add("{}", cell(*by, worlds, bench::metric(bench::kF1)));
     }
     add("</tr>\n");
   }

@@ -48,6 +48,7 @@ struct Metric {
 /// `dimension.mean` / `dimension.five_frame_mean`. Only suites have it (`suite::figure_of`), not
 /// metrics.json: its `compute` is empty.
 inline constexpr std::string_view kSizeShare = "size_share";
+inline constexpr std::string_view kF1 = "rebel.f1";  ///< the figure that suites are judged by
 
 /// All metrics in the order of metrics.json, then `kSizeShare`.
 const std::vector<Metric>& metrics();

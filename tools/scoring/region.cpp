@@ -25,7 +25,7 @@ void add(Region& region, const Stretch& stretch) {
   region.pixels += stretch.bottom - stretch.top;
 }
 
-Region region_of(std::span<const Vec2> polygon) {
+Region region_of_polygon(std::span<const Vec2> polygon) {
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const Vec2& point : polygon) {
     left = std::min(left, point.x());
@@ -66,7 +66,7 @@ Region region_of(const sim::Mask& mask) {
 }
 
 Region region_of(const Outline& outline) {
-  return region_of(outline.vertices());
+  return region_of_polygon(outline.vertices());
 }
 
 Region region_of(const Box& box) {

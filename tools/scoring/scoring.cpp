@@ -136,10 +136,10 @@ Metrics score(const Recording& recording) {
   return scorer.metrics(recording.warnings);
 }
 
-std::optional<double> value(const Metrics& metrics, const std::string& name) {
+std::optional<double> value(const Metrics& metrics, std::string_view name) {
   const auto found =
       std::ranges::find_if(metrics, [&](const auto& metric) { return metric.first == name; });
-  if (found == metrics.end()) throw std::out_of_range("no metric is called " + name);
+  if (found == metrics.end()) throw std::out_of_range("no metric is called " + std::string(name));
   return found->second;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct ObjectDetection;
 using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
 
 /// The value of a metric by name. \throws std::out_of_range for an unknown name.
-std::optional<double> value(const Metrics& metrics, const std::string& name);
+std::optional<double> value(const Metrics& metrics, std::string_view name);
 
 /// The counts of corners for precision and recall.
 struct RebelCounts {

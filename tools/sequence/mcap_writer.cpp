@@ -12,22 +12,20 @@
 namespace lcs::sequence {
 namespace {
 
-using Json = nlohmann::json;
-
-Json numbers_of(const Eigen::Vector3d& v) {
+nlohmann::json numbers_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
 /// x y z qx qy qz qw.
-Json pose_json(const sim::Pose& pose) {
+nlohmann::json pose_json(const sim::Pose& pose) {
   const Eigen::Quaterniond q = quaternion_of(pose);
   return {pose.p.x(), pose.p.y(), pose.p.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
 /// A row that begins with a time.
-Json timed(std::int64_t t_ns, std::initializer_list<Json> lists) {
-  Json row = {kEpoch_ns + t_ns};
-  for (const Json& list : lists) row.insert(row.end(), list.begin(), list.end());
+nlohmann::json timed(std::int64_t t_ns, std::initializer_list<nlohmann::json> lists) {
+  nlohmann::json row = {kEpoch_ns + t_ns};
+  for (const nlohmann::json& list : lists) row.insert(row.end(), list.begin(), list.end());
   return row;
 }
 
@@ -41,17 +39,17 @@ class McapWriter : public Writer {
 
   void write(const FrameView& frame, FrameOutput& output) const override {
     const sim::Observation& o = frame.now;
-    Json json{{"t", frame.stamp_ns},
-              {"place", info_.place},
-              {"picture", picture_path(frame.stamp_ns, info_.place)},
-              {"boxes", Json::array()}};
+    nlohmann::json json{{"t", frame.stamp_ns},
+                        {"place", info_.place},
+                        {"picture", picture_path(frame.stamp_ns, info_.place)},
+                        {"boxes", nlohmann::json::array()}};
     for (const sim::ObjectTruth& box : o.objects) {
       const sim::Object& object = info_.objects.at(static_cast<std::size_t>(box.object - 1));
       json["boxes"].push_back({box.object, kind_of(info_.scenario, object).category, box.left,
                                box.top, box.right, box.bottom});
     }
     if (info_.is_first()) {
-      for (const char* key : {"imu", "states", "wheels"}) json[key] = Json::array();
+      for (const char* key : {"imu", "states", "wheels"}) json[key] = nlohmann::json::array();
       for (const sim::ImuSample& sample : o.imu) {
         json["imu"].push_back(
             timed(sample.t_ns, {numbers_of(sample.gyro_radps), numbers_of(sample.accel_mps2)}));
@@ -61,7 +59,8 @@ class McapWriter : public Writer {
       }
       for (const sim::OdometrySample& sample : o.odometry) {
         json["wheels"].push_back(timed(
-            sample.t_ns, {numbers_of(sample.velocity_mps), Json::array({*sample.yaw_rate_radps})}));
+            sample.t_ns,
+            {numbers_of(sample.velocity_mps), nlohmann::json::array({*sample.yaw_rate_radps})}));
       }
       const sim::Pose& T_WC = o.truth.now.T_WC;
       json["truth"] = {{"t", kEpoch_ns + o.t_ns},  // by the clock of the IMU
@@ -83,16 +82,16 @@ class McapWriter : public Writer {
   }
 
  private:
-  Json sensors() const {
+  nlohmann::json sensors() const {
     const scenario::Imu& imu = info_.scenario.imu;
     const scenario::Odometry& wheels = info_.scenario.odometry;
     const auto variance = [&](double density) { return density * density * imu.rate_hz; };
     const double v = std::pow(wheels.noise_mps, 2), yaw = std::pow(wheels.yaw_noise_radps, 2);
-    Json json{{"start", kEpoch_ns},
-              {"imu_variances",
-               {variance(imu.noise.gyroscope_noise_density),
-                variance(imu.noise.accelerometer_noise_density)}},
-              {"wheel_variances", {v, v, 0, 0, 0, yaw}}};
+    nlohmann::json json{{"start", kEpoch_ns},
+                        {"imu_variances",
+                         {variance(imu.noise.gyroscope_noise_density),
+                          variance(imu.noise.accelerometer_noise_density)}},
+                        {"wheel_variances", {v, v, 0, 0, 0, yaw}}};
     const sim::Pose T_SB = info_.calibration.T_BS.inverse();
     json["links"]["base"] = pose_json(T_SB);
     for (std::size_t i = 0; i < info_.rig.size(); ++i) {

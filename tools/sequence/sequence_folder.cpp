@@ -28,7 +28,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameEntry, files, rows, checks)
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr const char* kPlan = "plan.json";
 constexpr std::string_view kFrames = "frames-", kPartial = ".partial";
@@ -171,7 +170,7 @@ void SequenceFolder::refresh() {
   for (auto& [path, journal] : journals_) {
     journal.read([&, &journal = journal](const std::string& row, int line) {
       try {
-        const Json json = bench::parse_json<Json>(row);
+        const nlohmann::json json = bench::parse_json<nlohmann::json>(row);
         entries_[json.at("frame").get<int>()] = json.at("entry").get<FrameEntry>();
       } catch (const std::exception&) {
         journal.refuse(line, "the row is no entry of a frame");
@@ -231,7 +230,7 @@ void SequenceFolder::add(int frame, const FrameOutput& output, const Agreements&
       }
       entry.files.push_back(record);
     }
-    journal_->add(bench::json_text(Json{{"frame", frame}, {"entry", entry}}));
+    journal_->add(bench::json_text(nlohmann::json{{"frame", frame}, {"entry", entry}}));
   } catch (const bench::OutputError&) {
     if (!is_finished_by_another()) throw;
   }

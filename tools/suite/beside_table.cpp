@@ -16,7 +16,7 @@
 namespace lcs::suite {
 namespace {
 
-constexpr std::string_view kF1 = "rebel.f1", kTime = "time.filter_ms_median",
+constexpr std::string_view kTime = "time.filter_ms_median",
                            kFalse = "rebel.false_objects_per_100_frames";
 
 constexpr const char* kIntervalLegend =
@@ -183,8 +183,8 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
   return line + '\n';
 }
 
-constexpr std::string_view kStanding[] = {kF1,    "rebel.recall", "square.recall_50_movers",
-                                          kFalse, kTime,          "time.process_ms_median"};
+constexpr std::string_view kStanding[] = {bench::kF1, "rebel.recall", "square.recall_50_movers",
+                                          kFalse,     kTime,          "time.process_ms_median"};
 
 }  // namespace
 
@@ -207,7 +207,7 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
         continue;
       }
       const Interval mean = interval_of(figures);
-      const int decimals = key == kF1 ? 3 : bench::metric(key).scale.decimals;
+      const int decimals = key == bench::kF1 ? 3 : bench::metric(key).scale.decimals;
       text += fmt::format(" {:.{}f}", mean.mean, decimals);
       const bool has_interval = is_of_worlds(by) && !bench::metric(key).is_time();
       if (has_interval) text += half_text(mean.half.value_or(0), decimals);
@@ -219,15 +219,16 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
   add(suite);
   for (const SuiteResult& other : others) add(other);
   text += fmt::format("\nMeans over {}; {} and {} over the {} with {}.\n",
-                      counted(std::ssize(suite.scenarios), "scenario"), bench::metric(kF1).label,
-                      bench::metric("rebel.recall").label,
-                      std::ssize(figures_of_group(suite, kAll, kF1)), bench::metric(kF1).label);
+                      counted(std::ssize(suite.scenarios), "scenario"),
+                      bench::metric(bench::kF1).label, bench::metric("rebel.recall").label,
+                      std::ssize(figures_of_group(suite, kAll, bench::kF1)),
+                      bench::metric(bench::kF1).label);
   return text;
 }
 
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
-  std::vector<Row> rows = rows_of(suite, others, kF1);
-  const std::string& f1 = bench::metric(kF1).label;
+  std::vector<Row> rows = rows_of(suite, others, bench::kF1);
+  const std::string& f1 = bench::metric(bench::kF1).label;
   if (rows.empty()) return fmt::format("no scenario has an {} by every detector\n", f1);
   const std::vector<Row> times = rows_of(suite, others, kTime);
   std::string lines;

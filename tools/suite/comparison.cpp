@@ -8,13 +8,12 @@
 #include <map>
 #include <utility>
 
+#include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
 namespace {
-
-constexpr std::string_view kF1 = "rebel.f1";
 
 struct RunPair {
   const RunResult* before;
@@ -113,8 +112,8 @@ class Comparer {
       before.push_back(*was);
       after.push_back(*is);
       changes.push_back(*is - *was);
-      const std::optional<double> f1_was = figure_of(*pair.before, kF1);
-      const std::optional<double> f1_is = figure_of(*pair.after, kF1);
+      const std::optional<double> f1_was = figure_of(*pair.before, bench::kF1);
+      const std::optional<double> f1_is = figure_of(*pair.after, bench::kF1);
       if (f1_was && f1_is) f1_changes.push_back(*f1_is - *f1_was);
     }
     if (!lost.empty()) note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
@@ -343,7 +342,7 @@ std::vector<const Difference*> shown_means(const Comparison& comparison, bool al
     const bool is_main =
         mean.scenario == largest->scenario
             ? std::ranges::find(tabled_metrics(), mean.metric) != tabled_metrics().end()
-            : mean.metric == "rebel.f1";
+            : mean.metric == bench::kF1;
     const bool has_changed = mean.verdict == Change::regressed || mean.verdict == Change::improved;
     if (all || is_main || has_changed) shown.push_back(&mean);
   }

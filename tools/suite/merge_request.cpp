@@ -63,7 +63,7 @@ int cost_of(const bench::Event& event) {
   return 0;
 }
 
-std::vector<bench::Event> events_of(const SuiteInFolder& suite, const RunResult& run) {
+std::vector<bench::Event> events_in(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.events_of(run);
   return file.empty() ? std::vector<bench::Event>() : bench::read_events(file);
 }
@@ -89,8 +89,8 @@ std::optional<Grown> most_grown(const SuiteInFolder& before, const SuiteInFolder
     for (const RunResult& run : scenario.runs) {
       const RunResult* same = earlier ? find(*earlier, run.seed) : nullptr;
       if (same == nullptr || same->metrics.empty()) continue;
-      const std::vector<bench::Event> then = events_of(before, *same);
-      for (bench::Event& event : events_of(after, run)) {
+      const std::vector<bench::Event> then = events_in(before, *same);
+      for (bench::Event& event : events_in(after, run)) {
         const bench::Event* was = former(event, then);
         const std::pair growth{family_of(event.kind) == bench::EventFamily::rebels,
                                cost_of(event) - (was ? cost_of(*was) : 0)};

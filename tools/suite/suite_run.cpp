@@ -45,49 +45,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
-  return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
-}
-
-/// The arguments of a run without its outputs. \param is_own whether it is the suite's detector.
-std::vector<std::string> run_of(const PlannedScenario& planned, std::uint64_t seed,
-                                const std::string& detector, bool is_own,
-                                const SuiteRunOptions& options) {
-  std::vector<std::string> command{"run", planned.file.string(), "--seed", std::to_string(seed)};
-  for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
-  if (detector != "lcs") command.insert(command.end(), {"--detector", detector});
-  if (!options.recorded.empty()) {
-    command.insert(command.end(),
-                   {"--recorded", (options.recorded / folder_of(planned, seed)).string()});
-  }
-  if (!is_own) return command;
-  command.insert(command.end(), options.own_detector.begin(), options.own_detector.end());
-  if (!options.detections.empty()) {
-    command.insert(
-        command.end(),
-        {"--detections", (options.detections / detections_of(planned.name, seed)).string()});
-  }
-  return command;
-}
-
-/// The arguments of a child: the first watcher's run, with the others in `--beside`.
-std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
-                                    const SuiteRunOptions& options) {
-  const SuiteWatcher& first = options.watchers.front();
-  std::vector<std::string> command = run_of(planned, seed, first.detector, first.is_own, options);
-  command.insert(command.end(),
-                 {"--out", (first.folder / folder_of(planned, seed)).string(), "--no-video",
-                  "--quiet", "--gzip", "--keep", std::string(word_of(options.keep))});
-  if (options.keep != bench::Keep::figures) command.emplace_back("--events");
-  for (std::size_t i = 1; i < options.watchers.size(); ++i) {
-    const SuiteWatcher& other = options.watchers[i];
-    const fs::path folder = other.folder / folder_of(planned, seed);
-    command.insert(command.end(),
-                   {"--beside", fmt::format("{}={}", other.detector, folder.string())});
-  }
-  return command;
-}
-
 /// All runs, longest first, so that the processors are busy until shortly before the end.
 std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
                          const std::optional<SuiteResult>& former) {
@@ -117,7 +74,7 @@ ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher
   for (const std::uint64_t seed : planned.seeds) {
     RunResult& run = result.runs.emplace_back();
     run.seed = seed;
-    run.command = shell_line(run_of(planned, seed, watcher.detector, watcher.is_own, options));
+    run.command = shell_line(options.run_of(planned, seed, watcher));
     run.error = planned.error;
   }
   return result;
@@ -193,6 +150,10 @@ bench::ResultNames suite_files() {
     }
   }
   return names;
+}
+
+fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
+  return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
 }
 
 fs::path detections_of(const std::string& scenario, std::uint64_t seed) {
@@ -274,7 +235,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     for (const SuiteWatcher& watcher : options.watchers) {
       fs::create_directories(watcher.folder / "runs" / planned.name);
     }
-    commands.push_back(command_of(planned, planned.seeds[job.run], options));
+    commands.push_back(options.child_of(planned, planned.seeds[job.run], options.watchers));
   }
 
   SuiteProgress progress;

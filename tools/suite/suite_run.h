@@ -39,12 +39,15 @@ struct SuiteRunOptions {
   /// At least one. All process the same frames, which are made once. Only the first one writes
   /// pictures and events.
   std::vector<SuiteWatcher> watchers;
-  std::vector<std::string> own_detector;  ///< further `lcs run` options of the first one
-  /// Folder with the first one's stored results (`detections_of`); "": the detector is run.
-  std::filesystem::path detections = {};
-  bench::Keep keep = bench::Keep::all;  ///< of each run; layers and truth are compressed
+  /// The arguments of `lcs` for a run with one of the watchers, without its outputs.
+  std::function<std::vector<std::string>(const PlannedScenario&, std::uint64_t seed,
+                                         const SuiteWatcher&)>
+      run_of;
+  /// The arguments of `lcs` for the child that makes a run for all watchers.
+  std::function<std::vector<std::string>(const PlannedScenario&, std::uint64_t seed,
+                                         std::span<const SuiteWatcher>)>
+      child_of;
   std::vector<std::string> sets;
-  std::filesystem::path recorded;  ///< earlier suite's folder, for its frames; "": simulate
   std::string version;
   std::size_t jobs = 1;               ///< concurrent runs, >= 1
   std::optional<SuiteResult> former;  ///< earlier result, to estimate durations
@@ -69,6 +72,9 @@ std::optional<double> former_seconds(const SuiteResult& former, const std::strin
 /// a broken scenario. \param former an earlier result with the durations of some runs.
 std::vector<double> estimated_seconds(const std::vector<PlannedScenario>& plan,
                                       const std::optional<SuiteResult>& former);
+
+/// The folder of a run in a watcher's folder: runs/NAME/seed-N.
+std::filesystem::path folder_of(const PlannedScenario& planned, std::uint64_t seed);
 
 /// The file of a run's detections: NAME/seed-N.csv.
 std::filesystem::path detections_of(const std::string& scenario, std::uint64_t seed);

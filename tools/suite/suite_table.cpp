@@ -108,7 +108,7 @@ class TableText {
 /// Sort key: errors first, then by F1 upwards, then scenarios without F1.
 double badness_key(const ScenarioResult& scenario) {
   if (outcome_of(scenario) == Outcome::error) return -1;
-  const std::optional<Spread> f1 = over_seeds(scenario, "rebel.f1");
+  const std::optional<Spread> f1 = over_seeds(scenario, bench::kF1);
   return f1 ? f1->mean : 2;
 }
 

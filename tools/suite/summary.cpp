@@ -34,7 +34,7 @@ const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
 const std::vector<std::string_view>& tabled_metrics() {
   static const std::vector<std::string_view> all{"rebel.precision",
                                                  "rebel.recall",
-                                                 "rebel.f1",
+                                                 bench::kF1,
                                                  "rebel.f1_distinct",
                                                  "rebel.latency_frames_median",
                                                  "rebel.object_recall",
@@ -96,7 +96,7 @@ std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
 
 std::string counted_group(const SuiteResult& suite, const std::string& group) {
   const auto all = count_in(suite, group);
-  const auto with_f1 = std::ssize(figures_of_group(suite, group, "rebel.f1"));
+  const auto with_f1 = std::ssize(figures_of_group(suite, group, bench::kF1));
   return with_f1 == all ? fmt::format("{} ({})", group, all)
                         : fmt::format("{} ({}, {} with F1)", group, all, with_f1);
 }

@@ -11,6 +11,7 @@
 
 #include "filter/reason.h"
 #include "tools/scoring/events.h"
+#include "tools/scoring/metrics.h"
 #include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
@@ -31,7 +32,7 @@ constexpr std::array<const char*, 6> kStandings{"error",   "failed",   "regresse
 // ---- Rules
 
 /// The sums of a run's events; absent if it has none or they are unreadable, as they only explain.
-std::optional<bench::EventSums> events_of(const SuiteInFolder& suite, const RunResult& run) {
+std::optional<bench::EventSums> event_sums_of(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.events_of(run);
   if (file.empty()) return std::nullopt;
   try {
@@ -77,8 +78,8 @@ void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
   bool has_before = false;
   for (const RunResult& run : scenario.runs) {
     const RunResult* same = other ? find(*other, run.seed) : nullptr;
-    const auto events = events_of(after, run);
-    const auto former = same ? events_of(*before, *same) : std::nullopt;
+    const auto events = event_sums_of(after, run);
+    const auto former = same ? event_sums_of(*before, *same) : std::nullopt;
     if (!events || (before && !former)) continue;
     now.add(*events);
     if (former) then.add(*former);
@@ -136,7 +137,7 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
   }
   // F1 comes first, even if another figure changed by more
   const auto weight = [](const Difference* one) {
-    return one->metric == "rebel.f1" ? std::numeric_limits<double>::infinity() : one->weight;
+    return one->metric == bench::kF1 ? std::numeric_limits<double>::infinity() : one->weight;
   };
   std::ranges::stable_sort(found,
                            [&](const auto* a, const auto* b) { return weight(a) > weight(b); });

@@ -9,6 +9,7 @@
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
+#include "tools/scoring/metrics.h"
 #include "tools/scoring/scoring.h"
 #include "tools/suite/suite_result.h"
 #include "tools/worlds/worlds.h"
@@ -95,7 +96,7 @@ Worth Trials::worth(const Parameters& parameters, const std::function<void()>& t
   Worth worth;
   double moving = 0, still = 0, recorded = 0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const auto figure = [&](const char* name) { return bench::value(figures[i], name); };
+    const auto figure = [&](std::string_view name) { return bench::value(figures[i], name); };
     if (runs_[i].truth == bench::Truth::nothing_moves) {
       worth.false_corners += figure("rebel.false_corners_per_frame").value_or(0);
       ++recorded;
@@ -103,7 +104,7 @@ Worth Trials::worth(const Parameters& parameters, const std::function<void()>& t
     }
     const double off = figure("rebel.false_objects_per_100_frames").value_or(0) / 100;
     worth.false_capped += std::min(1.0, off);
-    if (const auto f1 = figure("rebel.f1")) {
+    if (const auto f1 = figure(bench::kF1)) {
       worth.f1 += *f1;
       worth.false_moving += off;
       ++moving;

@@ -11,7 +11,6 @@
 namespace lcs::worlds {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRoverGap_m = 0.12, kGap_m = 0.08;
 constexpr int kTries = 120;
 constexpr int kLeastSeen = 14;  // frames; the promise is ten by the truth
@@ -61,13 +60,13 @@ class Planner {
     switch (path) {
       case Path::across:
       case Path::shuttle:
-        heading += d_.either(kPi / 2 - 0.25, kPi / 2 + 0.25);
+        heading += d_.either(std::numbers::pi / 2 - 0.25, std::numbers::pi / 2 + 0.25);
         break;
       case Path::slanting:
         heading += d_.chance(0.5) ? d_.either(0.4, 1.2) : d_.either(1.9, 2.7);
         break;
       case Path::coming:
-        heading += kPi + d_.between(-0.25, 0.25);
+        heading += std::numbers::pi + d_.between(-0.25, 0.25);
         break;
       case Path::going:
         heading += d_.between(-0.25, 0.25);
@@ -173,7 +172,7 @@ class Planner {
     box.heading_rad = heading;
     if (!may_be(box, meeting.at_m, kit_.ground(meeting.at_m))) return false;
     const double t = way_.frames[meeting.frame].t_s;
-    const double back = free_way(box, meeting.at_m, heading + kPi, speed * t);
+    const double back = free_way(box, meeting.at_m, heading + std::numbers::pi, speed * t);
     const double forth = free_way(box, meeting.at_m, heading, speed * (end_s() + 1 - t));
     if (back + forth < 0.3) return false;
     const Vector2d from = to_cm(meeting.at_m - back * towards(heading));
@@ -208,16 +207,17 @@ class Planner {
     constexpr double kInwards_mps2 = 1.5;  // greatest lateral acceleration without tipping
     const double radius = to_cm(d_.between(0.5, std::min(3.0, 0.5 * meeting.distance_m + 0.5)));
     speed = std::min(speed, std::sqrt(kInwards_mps2 * radius));
-    const double angle = d_.between(-kPi, kPi);
+    const double angle = d_.between(-std::numbers::pi, std::numbers::pi);
     const Vector2d centre = to_cm(meeting.at_m - radius * towards(angle));
     const double level = kit_.ground(centre);
     for (int i = 0; i < 24; ++i) {
       Box there = box;
-      there.heading_rad = 2 * kPi * i / 24 + kPi / 2;
-      if (!may_be(there, centre + radius * towards(2 * kPi * i / 24), level)) return false;
+      there.heading_rad = 2 * std::numbers::pi * i / 24 + std::numbers::pi / 2;
+      if (!may_be(there, centre + radius * towards(2 * std::numbers::pi * i / 24), level))
+        return false;
     }
     mover.start_s = 0;
-    mover.heading_rad = angle + kPi / 2;
+    mover.heading_rad = angle + std::numbers::pi / 2;
     mover.trajectory = scenario::Circular{.centre_m = centre,
                                           .radius_m = radius,
                                           .start_angle_rad = to_cm(angle),

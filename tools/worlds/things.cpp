@@ -9,8 +9,6 @@
 namespace lcs::worlds {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 const std::vector<Style> kPrinted{Style::lettering, Style::lettering, Style::stripes, Style::plain};
 const std::vector<Style> kMetal{Style::worn, Style::corrugated, Style::grille, Style::plain,
                                 Style::fractal};
@@ -89,7 +87,7 @@ Parts on_wheels(Kit& k, Parts parts, double x, double y, double r, double width)
     for (const double sy : {-1.0, 1.0}) {
       Part wheel = k.post({r, width, {0, 0, 0}, tyre});
       wheel.position_m = {sx * x, sy * y, r};
-      wheel.rotation = Eigen::AngleAxisd(kPi / 2, Vector3d::UnitX());
+      wheel.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
       parts.push_back(wheel);
     }
   }
@@ -181,7 +179,7 @@ Parts table(Kit& k) {
       parts.push_back(k.block({{s, s * 1.4, s * k.draw.between(0.3, 1.6)},
                                at,
                                k.paint(kPrinted),
-                               k.draw.between(0, kPi)}));
+                               k.draw.between(0, std::numbers::pi)}));
     } else {
       parts.push_back(k.turned(
           {{{s * .3, 0}, {s * .5, s * .5}, {s * .25, s}, {s * .3, s * 1.3}}, at, k.paint()}));
@@ -455,7 +453,7 @@ Parts bicycle(Kit& k) {
   Parts parts;
   for (const double x : {-0.5, 0.5}) {
     for (int i = 0; i < 12; ++i) {
-      const double a = kPi * i / 6, b = kPi * (i + 1) / 6;
+      const double a = std::numbers::pi * i / 6, b = std::numbers::pi * (i + 1) / 6;
       parts.push_back(k.bar({{x + 0.32 * std::cos(a), 0, 0.34 + 0.32 * std::sin(a)},
                              {x + 0.32 * std::cos(b), 0, 0.34 + 0.32 * std::sin(b)},
                              0.018,
