@@ -6,13 +6,13 @@
 #include <memory>
 #include <span>
 
-#include "filter/diagnostics.h"
-#include "filter/frame_result.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/parameters.h"
-#include "filter/radial/gap.h"
-#include "filter/signature.h"
+#include "filter/types/diagnostics.h"
+#include "filter/types/frame_result.h"
+#include "filter/types/gap.h"
+#include "filter/types/signature.h"
 
 namespace lcs {
 
@@ -21,7 +21,7 @@ namespace lcs {
 ///
 /// Bad data never throw and have no lasting effect. Invalid corners are dropped. If the time or
 /// motion since the last frame is unknown, the filter resets: from that frame on its results equal
-/// those of a new filter, except for the ids.
+/// the results of a new filter, except for the ids.
 class Filter {
  public:
   /// \throws std::invalid_argument for parameters out of range, or an invalid camera.

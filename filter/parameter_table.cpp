@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/learnt.h"
+#include "filter/types/learnt.h"
 
 namespace lcs {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "filter/parameters.h"
-#include "filter/trust.h"
+#include "filter/types/trust.h"
 
 namespace lcs {
 

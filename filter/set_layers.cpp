@@ -1,6 +1,6 @@
 #include "filter/set_layers.h"
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

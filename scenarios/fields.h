@@ -165,7 +165,7 @@ void fields(Camera& camera, Visit&& visit) {
   visit({"focal",
          "in place of `fovy`: the focal length, half the height by tan(fovy / 2); `[fx, fy]` for "
          "pixels that are not square",
-         "that of `fovy`"},
+         "by `fovy`"},
         focal, OneOrTwo{kFocal});
   visit.in_place_of("focal", {"fovy"});
   visit({"centre", "`[cx, cy]`: principal point; (0, 0) is the centre of the top-left pixel",
@@ -226,7 +226,7 @@ void fields(Gyroscopes& gyroscopes, Visit&& visit) {
 template <class Visit>
 void fields(Accelerometers& accelerometers, Visit&& visit) {
   auto& [M, range_mps2, resolution_mps2] = accelerometers;
-  visit({"M", "as that of the gyroscopes"}, M, kCoefficient);
+  visit({"M", "as `M` of the gyroscopes"}, M, kCoefficient);
   visit({"range", "largest reading of an axis, of either sign: 16 g is 156.9", "unlimited"},
         range_mps2, kImuAcceleration);
   visit({"resolution", "readings are multiples of it", "unlimited"}, resolution_mps2,
@@ -262,10 +262,10 @@ void fields(Imu& imu, Visit&& visit) {
   visit({"accelerometer_turn_on_bias", "likewise"}, accelerometer_bias_mps2, kTurnOnAcceleration);
   visit({"gyroscopes", "their errors beside noise and bias", "none"}, gyroscopes);
   visit({"accelerometers", "likewise", "none"}, accelerometers);
-  visit({"position", "[x, y, z] of the IMU in the rover", "that of the site `imu` in its file"},
+  visit({"position", "[x, y, z] of the IMU in the rover", "from the site `imu` in its file"},
         position_m, kPosition);
   visit({"rotation", "[roll, pitch, yaw] of the IMU's axes in the rover, as `camera.rotation`",
-         "that of the site `imu` in its file"},
+         "from the site `imu` in its file"},
         rpy_rad, kAngle);
   visit({"gaps", "a list of [from, to]: times without readings, from above 0, increasing", "none"},
         gaps);
@@ -365,7 +365,7 @@ void fields(Image& image, Visit&& visit) {
   visit({"gain", "after the sensor, of signal and noise"}, gain, kGain);
   visit({"auto_exposure",
          "`{target: 0.2, time_constant: 0.2 s, gain: [1, 16]}`: each picture sets exposure and "
-         "gain of the next; `exposure` and `gain` are those of the first",
+         "gain of the next; `exposure` and `gain` hold for the first",
          "exposure and gain stay"},
         auto_exposure);
   visit({"noise", "`{full_well: 10000, read: 5}`, or `none`"}, noise, OrWord<Plain>{{}, "none"});
@@ -699,7 +699,7 @@ void fields(Scenario& scenario, Visit&& visit) {
          "it as. It stays that world with any seed; each run states it in `truth.jsonl`, and `lcs "
          "tune` takes none of the split test. A scene may state it too, by `<custom><text "
          "name=\"lcs.world\" data=\"room 7\"/></custom>`; then both must agree",
-         "that of the scene"},
+         "as the scene states it"},
         origin);
   visit({"seed",
          "of textures, bumps, rain, IMU noise, odometry and the camera's noise; each draws from a "

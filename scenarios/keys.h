@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "scenarios/input/document.h"
 #include "scenarios/scenario.h"
-#include "tools/input/document.h"
 
 namespace lcs::scenario {
 

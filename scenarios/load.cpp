@@ -8,9 +8,9 @@
 #include <system_error>
 
 #include "scenarios/fields.h"
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/reader.h"
 #include "scenarios/scenes.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/reader.h"
 
 namespace lcs::scenario {
 namespace {

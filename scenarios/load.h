@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/input/document.h"
 #include "scenarios/scenario.h"
-#include "tools/input/document.h"
 
 namespace lcs::scenario {
 

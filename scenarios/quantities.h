@@ -3,7 +3,7 @@
 /// (km for m) without limiting large experiments.
 #pragma once
 
-#include "tools/input/reader.h"
+#include "scenarios/input/reader.h"
 
 namespace lcs::scenario {
 

@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-#include "tools/input/error.h"
+#include "scenarios/input/error.h"
 
 namespace lcs::scenario {
 
@@ -228,7 +228,7 @@ struct Image {
     double drop_life_s = 4;  ///< mean time until a drop runs off and another lands
   };
   /// Changes exposure and gain from frame to frame; `sim/camera/exposure_control.h` has the law.
-  /// `exposure_s` and `gain` are then those of the first frame.
+  /// `exposure_s` and `gain` then hold for the first frame only.
   struct AutoExposure {
     double target = 0.2;           ///< mean of the picture in linear light, (0, 1)
     double time_constant_s = 0.2;  ///< in which a deviation falls to 1/e; 0: within a frame
@@ -316,7 +316,7 @@ struct Actor {
   /// Of its joints: a keyframe of its file, `kPoseZero` or `kPoseWalking`; "": it has none, or
   /// `kPoseWalking` for a walker.
   std::string pose;
-  std::string kind;  ///< class in COCO and MOT; "": that of its shape
+  std::string kind;  ///< class in COCO and MOT; "": the class of its shape
   Trajectory trajectory;
   StartTrigger start;
 
@@ -441,9 +441,9 @@ struct Scenario {
   std::uint64_t seed = 1;  ///< of all random streams: textures, IMU noise, odometry and others
   int frames = 0;          ///< > 0; for a recording: the most, and 0 for all of its frames
   Ego ego;
-  Camera camera;                   ///< of the detectors: that of `cameras` if there are some
+  Camera camera;                   ///< the detectors' camera; in a rig, one of `cameras`
   std::vector<RigCamera> cameras;  ///< of a rig, all of one rate; empty for a single camera
-  std::string filter_camera;       ///< the name of that of the detectors; "": no rig, or its first
+  std::string filter_camera;       ///< the detectors' camera in the rig; "": no rig, or its first
   std::size_t rig_place = 0;       ///< of `camera` in `cameras`
   Imu imu;
   Odometry odometry;

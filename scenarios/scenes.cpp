@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "scenarios/input/reader.h"
 #include "scenarios/shipped.h"
-#include "tools/input/reader.h"
 
 namespace lcs::scenario {
 

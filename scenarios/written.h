@@ -1,11 +1,12 @@
 /// \file
-/// Converts values of a scenario to YAML, by type and form. `document_of` (keys.h) converts a whole scenario.
+/// Converts values of a scenario to YAML, by type and form. `document_of` (keys.h) converts a whole
+/// scenario.
 #pragma once
 
 #include <algorithm>
 
 #include "scenarios/fields.h"
-#include "tools/input/document.h"
+#include "scenarios/input/document.h"
 
 namespace lcs::scenario {
 
@@ -187,7 +188,7 @@ inline input::Value written(Plain, const Waypoints& waypoints) {
 }
 
 /// The phases after the first one, which the ego's own keys define. All keys are written, because
-/// each phase inherits those of the phase before.
+/// each phase inherits the keys of the phase before.
 inline input::Value written(Plain, const std::vector<EgoPhase>& phases) {
   input::Value items = list({});
   for (std::size_t i = 1; i < phases.size(); ++i) items.items.push_back(all_keys(phases[i]));

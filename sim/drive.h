@@ -14,7 +14,7 @@ class World;
 
 struct Drive {
   Calibration calibration;
-  /// Bitwise equal to those of `Simulation`, but without images, depths, objects and `imu_truth`.
+  /// Bitwise equal to `Simulation`'s frames, but without images, depths, objects and `imu_truth`.
   std::vector<Observation> frames;
 };
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "sim/base/random.h"
 #include "sim/camera/linear_light.h"
 #include "sim/drive.h"
 #include "sim/events/sampling.h"
-#include "sim/random.h"
 
 namespace lcs::sim {
 namespace {
@@ -28,7 +28,7 @@ std::vector<ConvexParts> outlines(const World& world) {
   return parts;
 }
 
-/// Each camera of a rig has its own noise; that of the first is as of a single camera.
+/// Each camera of a rig has its own noise; the first has the noise of a single camera.
 std::uint64_t noise_seed(const scenario::Scenario& s) {
   if (s.rig_place == 0) return s.seed;
   return RandomStream(s.seed, fmt::format("camera.{}", s.rig_place)).bits();

@@ -11,8 +11,8 @@
 #include "sim/camera/lens_renderer.h"
 #include "sim/camera/photograph.h"
 #include "sim/events/event_sensor.h"
+#include "sim/scene/silhouette.h"
 #include "sim/simulation.h"
-#include "sim/truth/silhouette.h"
 #include "sim/world/passage.h"
 
 namespace lcs::sim {

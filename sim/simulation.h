@@ -11,30 +11,24 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/base/optics.h"
+#include "sim/base/physics_error.h"
+#include "sim/base/pose.h"
 #include "sim/camera/exposure_control.h"
-#include "sim/camera/optics.h"
 #include "sim/events/event.h"
 #include "sim/imu/imu.h"
-#include "sim/pose.h"
 #include "sim/truth/truth.h"
 #include "sim/world/warnings.h"
 
 namespace lcs::sim {
 
-struct Observation {
-  int index = 0;          ///< k, from 0
-  std::int64_t t_ns = 0;  ///< k / rate, from 0, by the clock of the IMU
-  cv::Mat3b image;        ///< BGR
-  Exposure exposure;      ///< of `image`
-  /// BGR, before lens blur, light, shadows, weather and sensor: each pixel shows one surface, that
-  /// of the truth. With a distortion a pixel at an outline mixes its two surfaces.
+struct Observation : FrameReadings {
+  cv::Mat3b image;    ///< BGR
+  Exposure exposure;  ///< of `image`
+  /// BGR, before lens blur, light, shadows, weather and sensor: each pixel shows one surface, as in
+  /// the truth. With a distortion a pixel at an outline mixes its two surfaces.
   cv::Mat3b rendered;
   cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
-  /// t(k-1) < t <= t(k), with the times of frames that the filter is told (`time_offset_error` of
-  /// `camera.told`); the first frame has the sample at 0.
-  std::vector<ImuSample> imu;
-  std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
-  std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps
   /// t(k-1) < t <= t(k), in order; empty without event pixels.
   std::vector<Event> events;
   FrameTruth truth;
@@ -53,12 +47,6 @@ struct Calibration {
   double time_offset_s = 0;    ///< time by the IMU's clock - time by the camera's, as Kalibr
   double gravity_mps2 = 9.81;  ///< along -z of W
   bool on_ground = false;      ///< the rover's origin stays on the ground, which is level
-};
-
-/// Thrown when MuJoCo warns or fails (bad qacc and the like); the message has the simulated time.
-class PhysicsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// \throws input::Error for a scenario of recorded frames: it has no world to simulate.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sim/observer.h"
-#include "sim/truth/silhouette.h"
+#include "sim/scene/silhouette.h"
 #include "sim/world/watch.h"
 
 namespace lcs::sim {

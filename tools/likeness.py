@@ -21,7 +21,7 @@ import lcs  # before cv2, whose OpenGL would take the place of the software rend
 import cv2
 import numpy as np
 
-MEASURES = {  # those of corners are medians over the corners of a picture
+MEASURES = {  # measures of corners are medians over the corners of a picture
     "corners": "FAST corners in a picture, by the scenario's corners.threshold",
     "corners_per_mpx": "the same for a million pixels",
     "spacing_px": "distance from a corner to the nearest other one",

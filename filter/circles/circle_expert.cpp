@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "filter/circles/mean_circle.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 

@@ -9,7 +9,7 @@
 #include "filter/circles/circle_parameters.h"
 #include "filter/circles/motion_groups.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

@@ -2,7 +2,7 @@
 /// Parameters of the circles (keys `circle.*`). MODEL.md defines each by its formula.
 #pragma once
 
-#include "filter/trust.h"
+#include "filter/types/trust.h"
 
 namespace lcs {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

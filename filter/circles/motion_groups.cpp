@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 #include "filter/vectors/vectors.h"
 
 namespace lcs {

@@ -13,10 +13,10 @@
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/matching/couples.h"
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

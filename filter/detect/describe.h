@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 
 namespace lcs {
 

@@ -29,7 +29,7 @@ class ArcStar {
 
   ArcStar(int width_px, int height_px);
 
-  /// \param x,y a pixel of the sensor. \param t_ns not before that of the last event.
+  /// \param x,y a pixel of the sensor. \param t_ns not before the time of the last event.
   bool add(int x, int y, std::int64_t t_ns, bool is_on);
 
   /// The SAE of both polarities at the time of the last event: 128 is a pixel without an event for

@@ -17,7 +17,7 @@ constexpr double kSigma_levels = 6;    // standard deviation of a warped picture
 constexpr double kMost = 4;            // log likelihood that a pixel can lose
 constexpr double kContour_levels = 4;  // least gradient of a contour, grey levels a pixel
 constexpr double kRow = 2;             // log likelihood ratio that a row can reach
-constexpr double kBare = 3;            // and that of a row without contours
+constexpr double kBare = 3;            // log likelihood ratio added for a row without contours
 
 /// Bilinear; negative outside of the picture.
 double sample(const cv::Mat1b& picture, const Vec2& x) {
@@ -53,7 +53,7 @@ class EarlierRow {
   Eigen::Vector3d first_, step_;
 };
 
-/// Whether the gradient at the pixel of a place is that of a contour; not at the border.
+/// Whether the gradient at the pixel of a place is steep enough for a contour; false at the border.
 bool has_contour(const cv::Mat1b& picture, const Vec2& x) {
   const int c = static_cast<int>(x.x() + 0.5), r = static_cast<int>(x.y() + 0.5);
   if (c < 1 || r < 1 || c + 1 >= picture.cols || r + 1 >= picture.rows) return false;

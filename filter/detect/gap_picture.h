@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "filter/kinematics/camera.h"
-#include "filter/radial/gap.h"
+#include "filter/types/gap.h"
 
 namespace lcs {
 

@@ -16,9 +16,9 @@ std::optional<double> noise_levels(const cv::Mat1b& grey);
 
 /// Standard deviation of the error by compression in 8x8 blocks (JPEG, MPEG), grey levels; 0 if no
 /// block grid is found. Blocks are compressed separately, so brightness jumps at their borders. The
-/// mean square of these jumps, less that of jumps elsewhere, is the error of both blocks. Below 1
-/// for uncompressed pictures; at least four fifths of JPEG's error near corners. A deblocking
-/// decoder (H.264) hides most of it.
+/// mean square of these jumps, less their mean square elsewhere, is the error of both blocks.
+/// Below 1 for uncompressed pictures; at least four fifths of JPEG's error near corners. A
+/// deblocking decoder (H.264) hides most of it.
 double compression_levels(const cv::Mat1b& grey);
 
 /// FAST's threshold for this noise and compression, grey levels: at least 20, which suffices for a

@@ -4,7 +4,7 @@
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 namespace {

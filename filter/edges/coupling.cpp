@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "filter/edges/gauss.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 #include "filter/vectors/vectors.h"
 
 namespace lcs {

@@ -6,7 +6,7 @@
 #include "filter/edges/edge.h"
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 

@@ -11,17 +11,17 @@
 #include "filter/edges/edge_parameters.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/track.h"
-#include "filter/frame_result.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
-#include "filter/trust.h"
+#include "filter/types/frame_result.h"
+#include "filter/types/trust.h"
 
 namespace lcs {
 
 /// The motion that a frame's edges are made with.
 enum class UsedMotion : std::uint8_t {
   told,
-  held,  ///< that of the last frame goes on: the corners contradict the told one
+  held,  ///< the last frame's motion goes on: the corners contradict the told motion
   none,  ///< the corners contradict the told motion, and all tracks were dropped
 };
 
@@ -40,7 +40,7 @@ class EdgeExpert {
   /// Predicts the tracks of the frame before, assigns the corners to them, and updates their
   /// beliefs.
   /// \param told the motion field of the given ego-motion since the frame before.
-  /// \param held that of the motion of the last frame, over the same time; null: unknown.
+  /// \param held the motion field of the last frame's motion, over the same time; null: unknown.
   /// \return valid until the next call.
   const Result& step(const Chi& chi, const MotionField& told, const MotionField* held = nullptr);
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "filter/learnt.h"
+#include "filter/types/learnt.h"
 
 namespace lcs {
 
@@ -35,8 +35,8 @@ struct EdgeParameters {
   double ego_share = learnt("hypotheses.ego_share");
   double max_speed_pxps = 900;  ///< px/s: the fastest mover that is searched for, rotation removed
   int coast = 3;                ///< frames that a track without a corner lives on
-  /// Differing bits of two signatures that are as likely of one place as of two. Corners whose
-  /// signatures differ more are never paired.
+  /// Differing bits of two signatures at which same and other place are equally likely. Corners
+  /// whose signatures differ more are never paired.
   double bits_even = learnt("hypotheses.bits_even");
   double bits_weight = learnt("hypotheses.bits_weight");  ///< log odds for each bit less
   /// Standard deviation between the steps of neighbours on one body, as a share of the step.

@@ -7,7 +7,7 @@
 
 #include "filter/edges/gauss.h"
 #include "filter/matching/point_grid.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 #include "filter/vectors/vectors.h"
 
 namespace lcs {

@@ -50,7 +50,7 @@ class Neighbourhood {
   std::span<const Neighbour> of(std::size_t point) const {
     return {nearest_.data() + point * count_, count_};
   }
-  /// Those of all points, point by point; each has as many.
+  /// The neighbours of all points, point by point; the same number for each point.
   std::span<const Neighbour> all() const { return nearest_; }
   /// px: distance to the farthest of these neighbours; 0 without any.
   double reach_px(std::size_t point) const {

@@ -19,7 +19,7 @@ OwnMotion OwnMotion::predicted(const MotionField& field, double acceleration) co
   next.velocity_pxps = velocity_pxps;
   Eigen::Matrix2d F;
   F << 1, dt, 0, 1;
-  // Velocity as a random walk: its variance at the frame's end, and that of the place.
+  // Velocity as a random walk: the variances of velocity and place at the frame's end.
   const double change2 = acceleration * acceleration * dt * dt * velocity_pxps.squaredNorm();
   Eigen::Matrix2d Q;
   Q << dt * dt / 3, dt / 2, dt / 2, 1;

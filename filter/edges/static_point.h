@@ -58,7 +58,7 @@ struct StaticPoint {
     Vec2 b;
     double c;
   };
-  /// Sets place and inverse depth to those of a point of the last frame, predicted by a motion.
+  /// Predicts place and inverse depth from a point of the last frame, by a motion.
   Step move(const StaticPoint& before, const Intrinsics& camera, const MotionField& field);
 
   /// Updates a predicted point by a sighting, and clamps its depth to the bounds.

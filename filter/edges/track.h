@@ -8,8 +8,8 @@
 #include "filter/edges/static_point.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
-#include "filter/signature.h"
+#include "filter/types/layers.h"
+#include "filter/types/signature.h"
 
 namespace lcs {
 

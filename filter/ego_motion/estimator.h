@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "filter/diagnostics.h"
 #include "filter/ego_motion/imu_watch.h"
 #include "filter/kinematics/ego_motion.h"
+#include "filter/types/diagnostics.h"
 
 namespace lcs {
 

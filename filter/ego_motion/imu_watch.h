@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "filter/diagnostics.h"
+#include "filter/types/diagnostics.h"
 
 namespace lcs {
 

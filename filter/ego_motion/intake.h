@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "filter/diagnostics.h"
 #include "filter/kinematics/ego_motion.h"
+#include "filter/types/diagnostics.h"
 
 namespace lcs {
 

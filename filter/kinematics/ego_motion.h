@@ -22,7 +22,7 @@ struct Ground {
 /// Motion of the camera from frame k-1 to frame k.
 struct EgoMotion {
   double dt_s = 0;  ///< t_f; 0 in the first frame
-  /// Takes camera coordinates of frame k-1 to those of frame k (rotation part).
+  /// Takes camera coordinates from frame k-1 to frame k (rotation part).
   Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
   /// Mean velocity of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();

@@ -79,7 +79,7 @@ class MotionField {
   /// moved by `displacement_C_m`; `depth_ratio` is Z_ref / Z now. Far outside if behind the camera.
   Vec2 earlier(const Vec2& x_px, double depth_ratio, const Eigen::Vector3d& displacement_C_m) const;
 
-  /// Rotates camera coordinates of frame k-1 to those of frame k.
+  /// Rotates camera coordinates from frame k-1 to frame k.
   const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
 
   double reference_depth_m() const { return parameters_.reference_depth_m; }

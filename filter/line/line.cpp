@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 bool contains(const IgnoreRegion& region, const Vec2& x) {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "filter/diagnostics.h"
-#include "filter/frame_result.h"
 #include "filter/kinematics/camera.h"
-#include "filter/signature.h"
+#include "filter/types/diagnostics.h"
+#include "filter/types/frame_result.h"
+#include "filter/types/signature.h"
 
 namespace lcs {
 
@@ -32,7 +32,7 @@ struct Chi {
   };
   std::vector<Repeat> repeats;
 
-  /// Reason of rejection for each of the caller's corners; `unknown` for those of chi and repeats.
+  /// Reason to reject each of the caller's corners; `unknown` for corners of chi and repeats.
   std::vector<Reason> rejected;
 
   std::size_t size() const { return locations.size(); }
@@ -72,7 +72,7 @@ class LineExpert {
 void count_rejected(const Chi& chi, Diagnostics& diagnostics);
 
 /// Sets verdict and reason of each of the caller's corners. Rejected corners are `ignored` inside
-/// psi and `pending` elsewhere. A repeat gets those of the corner at its place.
+/// psi and `pending` elsewhere. A repeat gets the verdict and reason of the corner at its place.
 /// \param verdicts, reasons one for each corner of chi.
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
                      std::span<const Reason> reasons, FrameResult& result);

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "filter/kinematics/camera.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 #include "filter/vectors/vectors.h"
 
 namespace lcs {

@@ -17,7 +17,7 @@ std::vector<std::string> preset_names();
 /// \throws std::invalid_argument naming the known presets.
 AnyParameters preset(std::string_view name);
 
-/// Like those of `lcs::Parameters`.
+/// Like the functions for `lcs::Parameters`.
 ///@{
 void set(AnyParameters& parameters, std::string_view key, std::string_view value);
 void validate(const AnyParameters& parameters);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "filter/matching/couples.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 

@@ -2,7 +2,7 @@
 /// The paper's update of an estimate by a measurement.
 #pragma once
 
-#include "filter/trust.h"
+#include "filter/types/trust.h"
 
 namespace lcs::paper {
 

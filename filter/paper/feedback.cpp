@@ -1,6 +1,6 @@
 #include "filter/paper/feedback.h"
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 namespace {

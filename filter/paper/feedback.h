@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "filter/layers.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
-#include "filter/trust.h"
+#include "filter/types/layers.h"
+#include "filter/types/trust.h"
 
 namespace lcs::paper {
 

@@ -7,8 +7,8 @@
 #include "filter/circles/mean_circle.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
-#include "filter/matching/refill.h"
 #include "filter/paper/estimate.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 namespace {

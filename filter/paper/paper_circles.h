@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/matching/point_grid.h"
 #include "filter/paper/parameters.h"
+#include "filter/types/layers.h"
 
 namespace lcs::paper {
 

@@ -5,8 +5,8 @@
 
 #include "filter/edges/edge.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/matching/refill.h"
 #include "filter/paper/estimate.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 namespace {

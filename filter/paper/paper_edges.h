@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "filter/frame_result.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
 #include "filter/paper/cheapest_first.h"
 #include "filter/paper/parameters.h"
+#include "filter/types/frame_result.h"
 
 namespace lcs::paper {
 
@@ -100,7 +100,7 @@ class PaperEdges {
   // Scratch storage of the current frame; members, so that a frame need not allocate.
   PointGrid corner_grid_;
   /// Pairs of an edge and a corner inside its gate, with their cost. Edge indices count normal
-  /// edges first; corner indices are those of chi.
+  /// edges first; corner indices refer to chi.
   std::vector<Couple> pairs_;
   CheapestFirst order_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none

@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "filter/ego_motion/intake.h"
-#include "filter/matching/refill.h"
 #include "filter/paper/feedback.h"
 #include "filter/paper/paper_circles.h"
 #include "filter/paper/paper_edges.h"
 #include "filter/paper/paper_squares.h"
 #include "filter/set_layers.h"
 #include "filter/stopwatch.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 

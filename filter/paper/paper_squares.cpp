@@ -6,10 +6,10 @@
 
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
-#include "filter/matching/refill.h"
 #include "filter/paper/estimate.h"
 #include "filter/paper/tangent.h"
 #include "filter/squares/convex_hull.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/paper/parameters.h"
+#include "filter/types/layers.h"
 
 namespace lcs::paper {
 

@@ -68,7 +68,7 @@ struct PaperParameters {
 /// changes".
 PaperParameters cars();
 
-/// Like those of `lcs::Parameters`.
+/// Like the functions for `lcs::Parameters`.
 ///@{
 void set(PaperParameters& parameters, std::string_view key, std::string_view value);
 void validate(const PaperParameters& parameters);

@@ -6,8 +6,8 @@
 
 #include "filter/circles/motion_groups.h"
 #include "filter/edges/gauss.h"
-#include "filter/matching/refill.h"
 #include "filter/radial/median.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 namespace {
@@ -78,7 +78,7 @@ double Comers::evidence(Id circle, std::span<const int> members, std::span<const
   return -std::log(std::exp(-0.5 * z * z) + std::exp(-corners - *picture) + parameters_.hanging);
 }
 
-/// Sets the log odds of the edges to those of the last frame; new edges have the prior's.
+/// Takes the log odds of the edges from the last frame; new edges have the prior's log odds.
 void Comers::recall(const std::vector<Edge>& edges) {
   next_.clear();
   make_room(next_, edges.size());

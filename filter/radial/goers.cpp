@@ -7,8 +7,8 @@
 #include "filter/edges/gauss.h"
 #include "filter/edges/static_point.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/matching/refill.h"
 #include "filter/radial/median.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 /// Joins normal edges to a rebel circle that moves as a static body below the ground would.
@@ -23,7 +23,7 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     const Edge& edge = rebels[i];
     if (circle_of_rebel[i] != circle || edge.corner < 0) continue;
-    // Image motion over that of a static point at a depth of 1 m.
+    // Image motion divided by the image motion of a static point at a depth of 1 m.
     const Vec2 flow_px = parallax_px_m(camera_, field.displacement_C_m(), edge.origin);
     const Vec2 step_px = edge.velocity() * field.dt_s();
     if (!(flow_px.norm() > 0)) continue;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "filter/circles/mean_circle.h"
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 

@@ -9,12 +9,12 @@
 #include "filter/circles/circle_expert.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/matching/point_grid.h"
 #include "filter/radial/comer_parameters.h"
-#include "filter/radial/gap.h"
 #include "filter/radial/ground_view.h"
-#include "filter/reason.h"
+#include "filter/types/gap.h"
+#include "filter/types/layers.h"
+#include "filter/types/reason.h"
 
 namespace lcs {
 
@@ -28,8 +28,8 @@ class Comers {
       : camera_(camera), parameters_(parameters), circle_(circle), edge_(edge) {}
 
   struct Result {
-    /// Log odds of each normal edge that it comes. An edge in no circle, or of no known depth, has
-    /// those of the nearest edge with a known depth; all edges of a circle have the same.
+    /// Log odds that each normal edge approaches. An edge in no circle, or of no known depth, has
+    /// the log odds of the nearest edge with a known depth; all edges of a circle have the same.
     std::vector<double> odds;
     /// Corners without an edge that are nearest to one that comes, as indices in the caller's list.
     std::vector<int> inherited;
@@ -88,7 +88,7 @@ class Goers {
 
   struct Result {
     std::vector<int> circle;   ///< of each normal edge: the rebel circle that it joins, or -1
-    std::vector<double> odds;  ///< of those that join one: log odds that it goes
+    std::vector<double> odds;  ///< for an edge that joins a circle: log odds that it recedes
   };
 
   /// \param seen the normal edges. \return valid until the next call.
@@ -141,7 +141,7 @@ class Relabel {
 class RadialMovers {
  public:
   struct Result {
-    /// The edges and circles with those of radial movers among the rebels; null: there are none.
+    /// The edges and circles, radial movers among the rebels; null: there are no radial movers.
     const Relabel::Result* moved = nullptr;
     const Comers::Result* came = nullptr;  ///< null: comers were not searched for
   };

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

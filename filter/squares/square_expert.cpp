@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "filter/matching/refill.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 namespace {

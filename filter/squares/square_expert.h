@@ -6,8 +6,8 @@
 
 #include "filter/circles/circle_expert.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/squares/convex_hull.h"
+#include "filter/types/layers.h"
 
 namespace lcs {
 

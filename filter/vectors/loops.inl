@@ -313,7 +313,7 @@ void normal_sums(const ResidualColumns& residuals, std::size_t count, const doub
         {f * (1.0 + hy * hy), -f * hx * hy, -f * hx, Doubles{}, -motion, motion * hy}};
     const Doubles off[2] = {load(residuals.off_x_px + k), load(residuals.off_y_px + k)};
     Doubles left[2] = {off[0], off[1]};
-    // Covariance of the residual, and with that of the fix: J root (J root)^T.
+    // Covariance S of the residual; T adds the covariance of the fix, J root (J root)^T.
     const Doubles S_xx = load(residuals.S_xx_px2 + k), S_xy = load(residuals.S_xy_px2 + k);
     const Doubles S_yy = load(residuals.S_yy_px2 + k);
     Doubles T_xx = S_xx, T_xy = S_xy, T_yy = S_yy;

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter/matching/refill.h"
-#include "filter/signature.h"
+#include "filter/types/signature.h"
+#include "filter/vectors/refill.h"
 
 namespace lcs {
 
@@ -60,7 +60,7 @@ struct ExpectedTrack {
   float anywhere_ppx2;
 };
 
-/// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
+/// Columns of candidate pairs of corners and tracks, padded; a corner's pairs lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
   const std::uint32_t* counts;  ///< of each corner's pairs

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "sim/camera/drawables.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
+#include "sim/scene/drawables.h"
 
 namespace lcs::sim {
 

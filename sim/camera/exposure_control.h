@@ -1,5 +1,5 @@
 /// \file
-/// Automatic exposure and gain: each picture sets those of the next.
+/// Automatic exposure and gain: each picture sets both for the next picture.
 ///
 /// The product p of exposure and gain is the factor from light to the picture's grey. With m the
 /// mean of the exposed picture of frame k, in linear light, clipped at 1, over all pixels and

@@ -17,7 +17,7 @@
 #include <opencv2/core.hpp>
 
 #include "scenarios/scenario.h"
-#include "sim/camera/optics.h"
+#include "sim/base/optics.h"
 
 namespace lcs::sim {
 

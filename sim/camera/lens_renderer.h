@@ -2,8 +2,8 @@
 /// Renders the picture of a camera with any optics, and its depth and geom ids.
 #pragma once
 
+#include "sim/base/optics.h"
 #include "sim/camera/camera_renderer.h"
-#include "sim/camera/optics.h"
 
 namespace lcs::sim {
 
@@ -13,7 +13,7 @@ namespace lcs::sim {
 ///
 /// * colour: the mean of 2 x 2 samples in each pixel, each linear between its four neighbours. That
 ///   spreads a point by less than 0.4 px (standard deviation), beside the 0.6 px of `blur`;
-/// * geom: that of the pinhole's pixel nearest to the ray, which is at most 1 / (2 kDensity) of a
+/// * geom: from the pinhole's pixel nearest to the ray, which is at most 1 / (2 kDensity) of a
 ///   pixel of the lens away along each axis;
 /// * depth: of that pixel, continued to the ray along the surface. Exact on planes.
 class LensRenderer {
@@ -28,7 +28,7 @@ class LensRenderer {
   /// The picture with shadows, and 1 within `kShadowEdge_px` of their edges.
   void render_shaded(cv::Mat3b& bgr, cv::Mat1i& edge);
 
-  /// \name As those of `CameraRenderer`.
+  /// \name As in `CameraRenderer`.
   ///@{
   void update() { renderer_.update(); }
   void render_colour(cv::Mat3b& bgr);

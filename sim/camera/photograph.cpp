@@ -5,15 +5,15 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "sim/base/random.h"
 #include "sim/camera/linear_light.h"
 #include "sim/pictures/picture_file.h"
-#include "sim/random.h"
 
 namespace lcs::sim {
 namespace {
 
 /// The share of the light that passes the lens: 1 - loss (r / R)^2, with r the distance from the
-/// principal point and R that of the farthest corner.
+/// principal point and R the distance of the farthest corner.
 cv::Mat3f falloff_of(double loss, const Lens& lens) {
   cv::Mat3f falloff(lens.height_px, lens.width_px);
   const double far_x = std::max(lens.cu_px, lens.width_px - 1 - lens.cu_px);

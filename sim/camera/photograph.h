@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/base/optics.h"
+#include "sim/base/pose.h"
+#include "sim/base/random.h"
 #include "sim/camera/exposure_control.h"
 #include "sim/camera/illumination.h"
-#include "sim/camera/optics.h"
-#include "sim/pose.h"
-#include "sim/random.h"
 
 namespace lcs::sim {
 

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/camera/optics.h"
+#include "sim/base/optics.h"
 #include "sim/truth/truth.h"
 
 namespace lcs::sim {

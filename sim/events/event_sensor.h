@@ -1,7 +1,7 @@
 /// \file
 /// The pixels of an event camera, fed with pictures in linear light. Needs no renderer.
 ///
-/// The model is that of ESIM (Rebecq, Gehrig, Scaramuzza, "ESIM: an Open Event Camera Simulator",
+/// The model is ESIM's (Rebecq, Gehrig, Scaramuzza, "ESIM: an Open Event Camera Simulator",
 /// CoRL 2018) with the noise of v2e (Hu, Liu, Delbruck, "v2e: From Video Frames to Realistic DVS
 /// Events", CVPRW 2021). With light L in daylights, a pixel sees
 ///
@@ -31,8 +31,8 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/base/random.h"
 #include "sim/events/event.h"
-#include "sim/random.h"
 
 namespace lcs::sim {
 

@@ -6,8 +6,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 
 namespace lcs::sim {
 
@@ -41,6 +42,17 @@ struct OdometrySample {
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   /// Counter-clockwise, from the difference of the wheels; absent where wheels do not measure it.
   std::optional<double> yaw_rate_radps = std::nullopt;
+};
+
+/// A frame's number and time, and the readings that belong to it.
+struct FrameReadings {
+  int index = 0;          ///< k, from 0
+  std::int64_t t_ns = 0;  ///< k / rate, from 0, by the clock of the IMU
+  /// t(k-1) < t <= t(k), with the times of frames that the filter is told (`time_offset_error` of
+  /// `camera.told`); the first frame has the sample at 0.
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
+  std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps
 };
 
 }  // namespace lcs::sim

@@ -21,8 +21,8 @@
 #include <string_view>
 
 #include "scenarios/scenario.h"
+#include "sim/base/random.h"
 #include "sim/imu/imu.h"
-#include "sim/random.h"
 
 namespace lcs::sim {
 

@@ -33,7 +33,7 @@ struct Media {
                    const std::vector<int>& parameters);
   cv::Mat (*imdecode)(cv::InputArray bytes, int flags);
   /// Without decoding a picture. OpenCV has a picture's time only after it is decoded, and loses
-  /// that of the last ones. Empty if the file is no video.
+  /// the times of the last pictures. Empty if the file is no video.
   VideoTimes (*video_times)(const std::string& file);
   /// By FFmpeg; not opened if it cannot. \param codec four characters.
   std::unique_ptr<cv::VideoCapture> (*read_video)(const std::string& file);

@@ -67,7 +67,7 @@ lcs::sim::VideoTimes video_times(const std::string& file) {
     av_packet_unref(packet);
   }
   if (stream) times.counted = stream->nb_frames - left_out;
-  // AVI and MPEG's program streams lack some times of showing. Those of decoding are as far apart.
+  // AVI and MPEG's program streams lack some presentation times. Decoding times are as far apart.
   const auto is_missing = [](std::int64_t time) { return time == AV_NOPTS_VALUE; };
   if (std::ranges::any_of(pts, is_missing)) pts = dts;
   times.are_stated = times.are_stated && std::ranges::none_of(pts, is_missing);

@@ -15,8 +15,8 @@
 #include <new>
 #include <string>
 
+#include "scenarios/input/input_file.h"
 #include "sim/pictures/media.h"
-#include "tools/input/input_file.h"
 
 namespace lcs::sim {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "tools/input/error.h"
+#include "scenarios/input/error.h"
 
 namespace lcs::sim {
 

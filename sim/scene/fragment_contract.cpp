@@ -239,7 +239,7 @@ void check_walker(const mjsBody& base, const SpecReader& reader) {
     if (!pose_in_body(found->element).R.isIdentity(kTolerance)) {
       reader.refuse(
           found->element,
-          "TAG of a walker is turned when its joints are at zero; let its axes be those of 'base'");
+          "TAG of a walker is turned when its joints are at zero; give it the axes of 'base'");
     }
     return *found;
   };

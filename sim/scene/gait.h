@@ -2,7 +2,7 @@
 /// The gait of a walker: the angles of its limbs by the way that it has walked.
 ///
 /// A stride has the length S = `kStride` L, with L the leg's length from hip to ankle at rest. The
-/// phase of the left leg is the walked way in strides, that of the right leg half a stride more.
+/// phase of the left leg is the walked way in strides; the right leg is half a stride ahead.
 /// During the first `kStance` of its stride a foot is planted: it is at rest on the ground, while
 /// the body goes on. During the rest it swings ahead by S on a cycloid, which begins and ends at
 /// rest, and is lifted by up to `kLift` L. Hip and knee follow from hip and ankle as the two sides
@@ -23,7 +23,7 @@ namespace lcs::sim {
 class Gait {
  public:
   static constexpr double kStride = 1.3, kStance = 0.6, kLift = 0.15;
-  /// The bodies of a walker below `base`, in MuJoCo's names: trunk, then those of both sides.
+  /// The bodies of a walker below `base`, in MuJoCo's names: trunk, then the limbs of each side.
   static constexpr const char* kTrunk = "trunk";
   static constexpr std::array kSides{"left_", "right_"};
   static constexpr std::array kLeg{"thigh", "shank", "foot"};

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/random.h"
+#include "sim/base/random.h"
 #include "sim/scene/spec.h"
 
 namespace lcs::sim {

@@ -17,9 +17,9 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "sim/pictures/picture_file.h"
 #include "sim/scene/model.h"
-#include "tools/input/input_file.h"
 
 namespace lcs::sim {
 namespace {
@@ -65,7 +65,7 @@ constexpr double kMostTextureBytes = 1e9;
 constexpr int kMostHeightFieldSide = 2000;  // points; every image draws all of them
 
 constexpr input::FileKind kAssetFile{256 * input::kMebibyte,  // read into memory
-                                     "give a smaller file, of the kind that it is"};
+                                     "give an image, mesh or height field of at most 256 MiB"};
 
 // Attributes with these prefixes are text, which may contain words like "inf" and "nan".
 constexpr std::array<std::string_view, 17> kTexts = {

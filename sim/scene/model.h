@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "sim/scene/mujoco.h"
 
 namespace lcs::sim {

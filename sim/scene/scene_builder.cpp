@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "sim/rotation.h"
+#include "scenarios/input/spelling.h"
+#include "sim/base/rotation.h"
 #include "sim/scene/fragment.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/model.h"
-#include "tools/input/spelling.h"
 
 namespace lcs::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "sim/scene/mujoco.h"
 #include "sim/scene/xml.h"
 
@@ -31,8 +31,8 @@ class SpecReader {
   enum class Part { scene, fragment };
 
   /// \param where cited in the error if the file itself cannot be opened.
-  /// \param edit changes the file's document, and those of its `<model>`s, before MuJoCo reads
-  /// them. \throws input::Error with the user's file and line.
+  /// \param edit changes the documents of the file and of its `<model>`s before MuJoCo reads them.
+  /// \throws input::Error with the user's file and line.
   Spec read(const std::filesystem::path& file, const input::Source& where, Part part,
             const Edit& edit = {});
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/random.h"
+#include "sim/base/random.h"
 #include "sim/scene/model.h"
 
 namespace lcs::sim {

@@ -7,14 +7,14 @@
 #include <array>
 #include <charconv>
 
-#include "tools/input/input_file.h"
+#include "scenarios/input/input_file.h"
 
 namespace lcs::sim::xml {
 namespace {
 
 /// Size limits of MJCF text with mesh vertices, and of assets: images, meshes, height fields.
 constexpr input::FileKind kModelFile{64 * input::kMebibyte, "give the path of an MJCF file"};
-constexpr input::FileKind kNamedFile{input::kGibibyte, "give a file of the kind that it is"};
+constexpr input::FileKind kNamedFile{input::kGibibyte, "give an image, mesh, hfield or model"};
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;

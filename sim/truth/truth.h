@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/camera/optics.h"
-#include "sim/pose.h"
+#include "sim/base/optics.h"
+#include "sim/base/pose.h"
 #include "sim/truth/mask.h"
 
 namespace lcs::sim {
@@ -24,7 +24,7 @@ struct Object {
 };
 
 /// Poses at one time. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world (identity).
-/// After those of all objects come those of their limbs, see `FrameTruth::carrier`.
+/// The poses of the objects' limbs follow, see `FrameTruth::carrier`.
 struct Snapshot {
   Pose T_WC;
   std::vector<Pose> T_WO;
@@ -166,9 +166,9 @@ struct ObjectTruth {
   int left = 0, top = 0, right = 0, bottom = 0;
   int visible_px = 0;  ///< pixels of the mask
   /// Visible share of the full silhouette, which extends beyond the image; 0 if the body reaches
-  /// behind the camera, where its silhouette is unbounded. Areas are those in a pinhole's image.
+  /// behind the camera, where its silhouette is unbounded. Areas are measured in a pinhole's image.
   double visible_fraction = 0;
-  bool moving = false;  ///< its pose at k+1, or that of a limb, differs from that at k
+  bool moving = false;  ///< its pose, or the pose of a limb, differs between k and k+1
   Runs mask;            ///< its pixels within the box; empty if unknown
 };
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/truth/silhouette.h"
+#include "sim/scene/silhouette.h"
 
 namespace lcs::sim {
 namespace {
@@ -128,7 +128,7 @@ Overlap::Place Overlap::of(const Model& model, int geom_a, int geom_b, double le
                 normal = Eigen::Map<const Vector3d>(along);
               });
   if (place.depth_m <= least_depth_m) return {};
-  // For round geoms and hulls this normal is not always that of the least depth.
+  // For round geoms and hulls this normal is not always the direction of the least depth.
   place.depth_m = width_m(model, geom_a, geom_b, normal);
   for (const int geom : {geom_a, geom_b}) {
     const Eigen::Matrix3d R_WG = model.geom_pose(geom).R;

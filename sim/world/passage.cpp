@@ -74,7 +74,7 @@ void Passage::advance_to(std::int64_t t_ns) {
   reach(t_ns);
 }
 
-void Passage::advance(Observation& frame) {
+void Passage::advance(FrameReadings& frame) {
   frame.index = index_;
   frame.t_ns = event_time_ns(index_, rate_hz_);
   ++index_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/camera/shutter.h"
-#include "sim/simulation.h"
+#include "sim/base/shutter.h"
+#include "sim/imu/imu.h"
 #include "sim/world/world.h"
 
 namespace lcs::sim {
@@ -56,7 +56,7 @@ class Passage {
 
   /// Passes the frame after the next one, which becomes the next one. \param frame receives number,
   /// time and readings of the frame that was the next one. \throws PhysicsError
-  void advance(Observation& frame);
+  void advance(FrameReadings& frame);
 
  private:
   void pass_frame();
@@ -69,7 +69,7 @@ class Passage {
   Shutter shutter_;
   int index_ = 0;
   FrameState frame_;
-  Observation readings_;  ///< those that no frame has got yet
+  FrameReadings readings_;  ///< those that no frame has got yet
   bool has_events_;
   std::int64_t event_instants_ = 0;           ///< number of those passed
   std::vector<EventInstant> early_instants_;  ///< later than the next frame

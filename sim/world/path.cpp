@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/rotation.h"
+#include "sim/base/rotation.h"
 
 namespace lcs::sim {
 namespace {

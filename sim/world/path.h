@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 
 namespace lcs::sim {
 
@@ -15,7 +15,7 @@ namespace lcs::sim {
 ///
 ///     p(t) = sum_j N_j(t) c_j,   R(t) = R_i prod_{j=1..3} Exp(M_j(t) Log(R_{i+j-1}^T R_{i+j}))
 ///
-/// with N_j the cubic basis functions and M_j = sum_{k>=j} N_k those of the span (Kim, Kim, Shin,
+/// with N_j the cubic basis functions and M_j = sum_{k>=j} N_k over the span (Kim, Kim, Shin,
 /// "A general construction scheme for unit quaternion curves", SIGGRAPH 1995; derivatives: Sommer
 /// et al., "Efficient derivative computation for cumulative B-splines on Lie groups", CVPR 2020,
 /// with position and rotation split). Velocity and acceleration are continuous between the first

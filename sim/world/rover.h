@@ -18,8 +18,8 @@ struct PlanarVelocity {
   double yaw_rate_radps = 0;  ///< ccw
 };
 
-/// The commanded velocity at a time: that of the last phase that has begun; its acceleration
-/// changes its speed, but never below 0.
+/// The commanded velocity at a time: the velocity of the last phase that has begun. The phase's
+/// acceleration changes its speed, but never below 0.
 PlanarVelocity commanded_velocity(const std::vector<scenario::EgoPhase>& phases, std::int64_t t_ns);
 
 /// The command with limited accelerations: at a phase's jump in velocity, the change takes as long

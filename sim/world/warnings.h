@@ -36,10 +36,10 @@ struct WarningText {
 
 /// In the order of `Warning`.
 inline constexpr std::array<WarningText, 15> kWarnings{{
-    {"rover_below_ground", "give what it drives on contacts, or change its start or its path"},
+    {"rover_below_ground", "give the ground contacts (contype), or change its start or its path"},
     {"rover_tipped", "make it slower, or the ground smoother"},
-    {"rover_collisions", "change its start or its path, or what stands there"},
-    {"actor_collisions", "change its trajectory, or what stands there"},
+    {"rover_collisions", "change its start or its path, or move the obstacle"},
+    {"actor_collisions", "change its trajectory, or move the obstacle"},
     {"objects_below_ground", "give it contacts (contype, conaffinity), or take its joint away"},
     {"rover_off_command", "correct its joints, wheels or actuators, or ask for less"},
     {"actors_never_moved", "change its start or its speed, or the rover's path"},
@@ -48,7 +48,7 @@ inline constexpr std::array<WarningText, 15> kWarnings{{
     {"actors_of_other_size", "correct the size in its file (<numeric name=\"size\">) or its geoms"},
     {"translucent_geoms",
      "a pixel has one true surface; give it alpha 1, or 0 for a geom that is not drawn"},
-    {"undrawn_parts", "the truth is that of geoms; give the body geoms for what is to be seen"},
+    {"undrawn_parts", "only geoms have a truth; give the body geoms for the parts to be seen"},
     {"joints_frozen", "its trajectory moves it as one rigid body, whose limbs do not step"},
     {"coarse_shutter", "rows show steps; shorten the shutter's times, or slow the motion"},
     {"coarse_events", "events come in bursts; raise camera.rate, or slow the motion"},

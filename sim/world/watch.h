@@ -2,7 +2,7 @@
 /// Monitors a running world, without changing it, and counts physical faults: bodies that pass
 /// through each other, fall, or tip over.
 ///
-/// The holonomic rover and the actors have no contacts, so the overlaps are those of visible geoms.
+/// The holonomic rover and the actors have no contacts, so overlaps are between visible geoms.
 /// Bodies may touch a floor (a plane that faces up, or a height field).
 #pragma once
 

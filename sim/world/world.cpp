@@ -15,8 +15,8 @@
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 
+#include "sim/base/rotation.h"
 #include "sim/pictures/picture_file.h"
-#include "sim/rotation.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
 #include "sim/scene/model.h"
@@ -325,7 +325,7 @@ void World::find_actors() {
   }
 }
 
-/// Each body below that of a walker carries its geoms with a motion of its own.
+/// Each body below a walker's root body carries its geoms with a motion of its own.
 void World::find_limbs(const scenario::Actor& actor, int body) {
   const mjModel& m = model_.m();
   const int object = std::ranges::find(objects_, actor.name, &Object::name)->id;
@@ -535,7 +535,7 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
                          std::vector<ImuTruth>* imu_truth) {
   if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
     ++imu_count_;
-    // draw noise in a gap, too, so that later readings equal those of a run without gaps
+    // draw noise in a gap, too, so that later readings are as in a run without gaps
     const ImuSample reading = imu_noise_.corrupt(ideal_reading());
     imu_truth_.gyro_bias_radps = imu_noise_.gyro_bias_radps();
     imu_truth_.accel_bias_mps2 = imu_noise_.accel_bias_mps2();

@@ -16,12 +16,14 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/camera/drawables.h"
+#include "sim/base/physics_error.h"
+#include "sim/imu/imu.h"
 #include "sim/imu/imu_noise.h"
+#include "sim/scene/drawables.h"
 #include "sim/scene/gait.h"
 #include "sim/scene/model.h"
 #include "sim/scene/scene_builder.h"
-#include "sim/simulation.h"
+#include "sim/truth/truth.h"
 #include "sim/world/actor.h"
 #include "sim/world/rover.h"
 #include "sim/world/watch.h"

@@ -127,7 +127,7 @@ TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
                    static_cast<double>(rebels) / (rebels + fixed));
 }
 
-TEST_F(BenchTest, WhatTheSinkThrowsEndsTheRun) {
+TEST_F(BenchTest, ExceptionOfTheSinkEndsTheRun) {
   const auto stop_at_2 = [](const FrameRecord& frame, const cv::Mat3b&) {
     if (frame.index == 2) throw std::runtime_error("enough");
   };

@@ -109,7 +109,7 @@ TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
   }
 }
 
-TEST(EgoMotionFeed, WhatIsNotSaidToStayOnTheGroundHasNone) {
+TEST(EgoMotionFeed, MotionNotSaidToBeOnTheGroundHasNoGround) {
   const CircularDrive drive;
   sim::Calibration calibration = drive.calibration();
   calibration.on_ground = false;  // a drone, or an IMU without a vehicle

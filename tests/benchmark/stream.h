@@ -15,7 +15,7 @@
 
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 #include "scenarios/scenario.h"
 
 namespace lcs::bench {

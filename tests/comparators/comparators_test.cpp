@@ -393,7 +393,7 @@ class DetectorOnGroundTest : public DetectorTest {};
 INSTANTIATE_TEST_SUITE_P(Names, DetectorOnGroundTest, testing::Values("klt", "dis"),
                          [](const auto& test) { return test.param; });
 
-TEST_P(DetectorOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
+TEST_P(DetectorOnGroundTest, CornersSeenBelowTheGroundAreRebels) {
   EgoMotion ego = motion({0, 0, 1.5}, {0, 0, 0});
   const cv::Mat1b before = view({}), now = view(ego);
   const auto corners = corners_of(now);

@@ -1,4 +1,4 @@
-// Every file is opened by tools/input/input_file.h, every picture decoded by
+// Every file is opened by scenarios/input/input_file.h, every picture decoded by
 // sim/pictures/picture_file.h, every video opened by tools/output/video.h and all JSON
 // parsed by tools/files/json_node.h or the reader of recordings, so that their limits apply to all
 // input. No other code opens a file.
@@ -24,12 +24,12 @@ const std::map<std::string, std::set<std::string>> kWays{
     {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
      {"sim/scene/trial.cpp"}},  // /proc/self/statm
     {R"(::open(at)?\()",
-     {"tools/input/input_file.cpp",
+     {"scenarios/input/input_file.cpp",
       "sim/scene/trial.cpp",          // /dev/null
       "tools/lcs/terminal.cpp",       // /dev/null
       "tools/process/child.cpp",      // /dev/null
       "tools/files/output_file.cpp",  // the file to be replaced or copied
-      "tools/input/sha256.cpp",       // of regular files alone
+      "scenarios/input/sha256.cpp",   // of regular files alone
       "tools/files/output.cpp",       // a folder, a pipe to write to
       "tools/files/journal.cpp"}},    // to append
     {R"(imread|imdecode)",

@@ -71,7 +71,7 @@ TEST_P(ClosedDescriptors, StopNoCommand) {
   }
 }
 
-TEST_F(Process, WhatStandardOutputCannotHoldIsAnErrorInEveryCommand) {
+TEST_F(Process, FullStandardOutputIsAnErrorInEveryCommand) {
   ASSERT_EQ(run_lcs(run({"--out", "run", "--quiet"}), options()).exit_code, 0);
   ASSERT_EQ(run_lcs(brief({"suite", kCrossing, "--seeds", "1", "--quiet"}), options()).exit_code,
             0);

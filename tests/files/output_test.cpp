@@ -20,12 +20,12 @@
 #include <set>
 #include <thread>
 
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/sha256.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/written.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -276,7 +276,7 @@ TEST_F(Abandoned, FoldersOfTheUserThatAreCalledLikeItAreNeverTouched) {
   }
 }
 
-TEST_F(Abandoned, WhatTheUserPutIntoItStays) {
+TEST_F(Abandoned, FilesOfTheUserInItStay) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
   write(left / "in" / "thesis.tex", "precious");
   write(left / "notes.txt", "precious");
@@ -415,7 +415,7 @@ TEST_F(OutputTest, IsReplacedWhereFoldersCannotBeExchanged) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
 }
 
-TEST_F(OutputTest, WhatComesInTheLastMomentIsNotLost) {
+TEST_F(OutputTest, FileAddedInTheLastMomentIsNotLost) {
   make_result(top_ / "run", "old");
   late = top_ / "run" / "thesis.tex";
   exchange = Exchange::comes_late;
@@ -426,7 +426,7 @@ TEST_F(OutputTest, WhatComesInTheLastMomentIsNotLost) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
 }
 
-TEST_F(OutputTest, WhatBecameForeignDuringTheRunIsNotReplaced) {
+TEST_F(OutputTest, FolderMadeForeignDuringTheRunIsNotReplaced) {
   Output folder(top_ / "run", kFiles);
   write(folder.staging() / "metrics.json", "new");
   fs::create_directory(top_ / "run");
@@ -626,7 +626,7 @@ TEST_F(OutputOfAFile, ToADeviceOrAPipeThatIsReadIsWrittenDirectly) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"pipe"});
 }
 
-TEST_F(OutputOfAFile, ThatAKilledProcessLeftIsTakenAway) {
+TEST_F(OutputOfAFile, LeftoverOfAKilledProcessIsTakenAway) {
   const pid_t process = ::fork();
   if (process == 0) {
     const Output file(top_ / "page.html", Overwrite::own);
@@ -639,7 +639,7 @@ TEST_F(OutputOfAFile, ThatAKilledProcessLeftIsTakenAway) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"page.html"});
 }
 
-TEST_F(OutputOfAFile, WhoseRecordIsNotInItsPlaceYetIsFinishedByTheNext) {
+TEST_F(OutputOfAFile, CommitWithoutItsRecordIsFinishedByTheNext) {
   make_file(top_ / "figures.json", "old");
   const fs::path record = top_ / ".figures.json.lcs-written";
   const std::string old = read(record);

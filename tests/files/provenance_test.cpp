@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/input/error.h"
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/sha256.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output.h"
-#include "tools/input/error.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -59,7 +59,9 @@ TEST_F(ProvenanceTest, FirstDifferenceIsNamedWithBothValues) {
   EXPECT_EQ(with([](auto& b) { b.facts["keep"] = "figures"; }),
             "keep differs ('all' and 'figures')");
   EXPECT_EQ(with([](auto& b) { b.facts.erase("seed"); }), "seed differs ('1' and not stated)");
-  EXPECT_EQ(with([](auto& b) { b.facts["more"] = {1, 2}; }),
+  EXPECT_EQ(with([](auto& b) {
+              b.facts["more"] = {1, 2};
+            }),
             "more differs (not stated and '[1,2]')");
   EXPECT_EQ(with([](auto& b) { b.read["y"] = "3"; }), "y differs");
   EXPECT_EQ(with([](auto& b) { b.read.erase("y"), b.read["z"] = "4"; }), "")
@@ -84,8 +86,9 @@ TEST_F(ProvenanceTest, UnitsThatHaveReadDifferentStatesDoNotJoin) {
   whole.add_read({.facts = {}, .read = {{"x", "1"}}}, "a seed 1");
   whole.add_read({.facts = {}, .read = {{"x", "1"}, {"y", "2"}}}, "a seed 2");
   EXPECT_EQ(whole.read, (std::map<std::string, std::string>{{"x", "1"}, {"y", "2"}}));
-  const std::string message = refusal_of<std::runtime_error>(
-      [&] { whole.add_read({.facts = {}, .read = {{"y", "3"}}}, "b seed 1"); });
+  const std::string message = refusal_of<std::runtime_error>([&] {
+    whole.add_read({.facts = {}, .read = {{"y", "3"}}}, "b seed 1");
+  });
   EXPECT_TRUE(message.starts_with("b seed 1 has read y in another state")) << message;
 }
 

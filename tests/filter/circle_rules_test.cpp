@@ -234,7 +234,7 @@ TEST(NewCircle, StartsWithTheTrustOfItsKind) {
   EXPECT_EQ(circles_of(three(rebel({400, 200}, 1, 80))).front().trust, kRanks.initial_rebel());
 }
 
-TEST_F(CircleMatch, WhatHasLeftTheImageIsDeleted) {
+TEST_F(CircleMatch, CircleOutsideTheImageIsDeleted) {
   for (const Vec2& outside : {Vec2(-5, 200), Vec2(645, 200), Vec2(300, -5), Vec2(300, 485)}) {
     layers = {};
     layers.normal_circles = {predicted(outside, 20), predicted({300, 200}, 20)};

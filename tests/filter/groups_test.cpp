@@ -164,7 +164,7 @@ TEST(Groups, AWallSeenAtASlantIsOneAndNoSquare) {
   EXPECT_TRUE(layers.squares.empty());
 }
 
-TEST(Groups, WhatStandsBeforeAWallIsNoneOfIt) {
+TEST(Groups, PatchBeforeAWallIsASquareOfItsOwn) {
   Layers layers;
   add_wall(layers, 4, 9);
   add_patch(layers, {301, 150}, {341, 250}, 3);
@@ -269,7 +269,7 @@ TEST(Groups, ReachFartherWhereTheyAreNear) {
 }
 
 // 200 px wide; the width in metres depends on the depth.
-TEST(Groups, WhatIsLargerThanAnObjectMayBeIsBackground) {
+TEST(Groups, PatchLargerThanAnObjectIsBackground) {
   const double limit_m = SquareParameters{}.max_size * vga().focal_px / 200;
   for (const double share : {0.9, 1.1}) {
     Layers layers;

@@ -221,7 +221,7 @@ TEST(ImuFaults, AGapThatIsOpenAtTheEndIsCountedLikewise) {
   EXPECT_EQ(estimator.diagnostics().total(), 1);
 }
 
-TEST(ImuFaults, WhatWasUnseenBeforeTheClockWasSetIsNotToldAfterIt) {
+TEST(ImuFaults, UnseenTurnBeforeTheClockWasSetIsNotToldAfterIt) {
   EgoMotionEstimator estimator(mounting(), {}, {.v_WB_mps = {kSpeed_mps, 0, 0}});
   const auto hear = [&](std::int64_t from_ns) {
     for (int i = 0; i <= kReadingsAFrame; ++i) {
@@ -343,7 +343,7 @@ TEST(ImuFaults, AnImuOfAnotherClockIsNamed) {
   EXPECT_EQ(outcome.diagnostics.count(Fault::imu_jump), (kFrames - 1) * kReadingsAFrame + 1);
 }
 
-TEST(ImuFaults, WhatItIsMadeOfIsChecked) {
+TEST(ImuFaults, InvalidConstructorArgumentsAreRefused) {
   const auto refuses =
       [](const std::function<void(Mounting&, EgoMotionNoise&, EgoMotionEstimator::Start&)>& spoil) {
         Mounting m = mounting();

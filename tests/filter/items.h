@@ -3,7 +3,7 @@
 #pragma once
 
 #include "filter/kinematics/geometry.h"
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 #include "tests/filter/world.h"
 
 namespace lcs::testing {

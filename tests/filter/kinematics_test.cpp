@@ -167,7 +167,7 @@ TEST(Kinematics, WhileStillStaticLayersStay) {
 }
 
 /// An item that turns behind the camera has no image; it stays finite and in place.
-TEST(Kinematics, WhatTurnsBehindTheCameraStaysWhereItWas) {
+TEST(Kinematics, PointTurnedBehindTheCameraStaysWhereItWas) {
   const MotionField field(vga(), steady_motion(Vector3d::Zero(), {0, 3.1, 0}, 1), {});
   for (const Vec2& x : {Vec2(10, 20), Vec2(320, 240), Vec2(630, 470)}) {
     EXPECT_EQ(field.rotated(x), x);

@@ -180,7 +180,7 @@ TEST(MotionField, SpeedOverReferenceSpeedIsTheSameAtOneDepthEverywhere) {
   }
 }
 
-TEST(MotionField, WhatIsPassedWithinTheIntervalGetsTheLargestRatio) {
+TEST(MotionField, PointPassedWithinTheIntervalGetsTheLargestRatio) {
   FieldParameters parameters;
   const MotionField field(vga(), steady_motion({0, 0, 10}, Vector3d::Zero(), 1), parameters);
   EXPECT_DOUBLE_EQ(field.advanced_ratio(parameters.reference_depth_m / 5), 2 * field.max_ratio());

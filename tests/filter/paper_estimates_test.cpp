@@ -490,7 +490,7 @@ Chain row(const Vec2& a, const Vec2& b) {
   return {.sightings = {a, b}, .count = 2};
 }
 
-TEST(Alpha, WhatAStaticPointOfAnyPlausibleDepthMayDoIsNoRebel) {
+TEST(Alpha, MotionOfAnyPlausibleStaticPointIsNoRebel) {
   const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;
   const Vec2 a(300, 240);
@@ -627,7 +627,7 @@ TEST_F(RebelEstimates, FollowTheFormulasWithTheirOwnSpeedAndOrigin) {
 }
 
 /// zeta_r: near the prediction, and inside the span and the deviation about the origin.
-TEST_F(RebelEstimates, WhatIsOutOfReachOrOutOfTheirSpanIsNotTheirs) {
+TEST_F(RebelEstimates, CornersOutOfReachOrOutOfTheirSpanAreNotTheirs) {
   for (int i = 0; i < 200; ++i) {
     Case c = any();
     c.edge.mu = 0;

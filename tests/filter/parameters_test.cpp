@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "filter/learnt.h"
+#include "filter/types/learnt.h"
 #include "tests/tools/refusal.h"
 
 namespace lcs {
@@ -106,7 +106,7 @@ TEST(Parameters, AValueOutOfRangeIsRefusedByName) {
   }
 }
 
-TEST(Parameters, WhatIsNotAValueIsRefusedByName) {
+TEST(Parameters, InvalidValueIsRefusedByName) {
   paper::PaperParameters p;
   for (const auto& [key, value] : {std::pair{"circle.mu_0", "wide"},
                                    {"circle.mu_0", "nan"},

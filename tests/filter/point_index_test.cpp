@@ -7,7 +7,7 @@
 
 #include "filter/matching/point_grid.h"
 #include "filter/paper/cheapest_first.h"
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

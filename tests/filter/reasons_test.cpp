@@ -1,6 +1,6 @@
 /// Each reason in the smallest situation that causes it. The camera is at rest unless stated, so a
 /// static corner keeps its place.
-#include "filter/reason.h"
+#include "filter/types/reason.h"
 
 #include <gtest/gtest.h>
 

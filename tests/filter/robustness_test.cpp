@@ -128,7 +128,7 @@ const std::vector<std::pair<Vector2f, Fault>>& no_corners() {
   return corners;
 }
 
-TEST_P(BadData, WhatIsNoCornerLeavesNoTrace) {
+TEST_P(BadData, InvalidCornersLeaveNoTrace) {
   Scene scene(22);
   const auto frames = record(scene, 12);
   AnyFilter filter(scene.world.camera, parameters()), clean(scene.world.camera, parameters());

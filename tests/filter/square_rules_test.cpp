@@ -353,7 +353,7 @@ TEST_F(SquareMatch, OverlapMustExceedRhoC) {
   EXPECT_EQ(layers.squares.size(), 2u);  // the circle is a new square then
 }
 
-TEST_F(SquareMatch, WhatHasLeftTheImageIsDeleted) {
+TEST_F(SquareMatch, SquareOutsideTheImageIsDeleted) {
   for (const Vec2& outside : {Vec2(-5, 200), Vec2(645, 200), Vec2(300, -5), Vec2(300, 485)}) {
     layers = {};
     layers.squares = {predicted(), predicted()};

@@ -1,4 +1,4 @@
-#include "filter/trust.h"
+#include "filter/types/trust.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

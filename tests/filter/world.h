@@ -13,7 +13,7 @@
 #include "filter/kinematics/ego_motion.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 
 namespace lcs::testing {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scenarios/input/message.h"
 #include "tests/fuzz/input.h"
 #include "tests/scoring/whole_recordings.h"
-#include "tools/input/message.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/events.h"

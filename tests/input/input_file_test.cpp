@@ -1,5 +1,5 @@
 // Each input must be a regular file of an allowed size; other inputs are reported.
-#include "tools/input/input_file.h"
+#include "scenarios/input/input_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -36,7 +36,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
+TEST(InputFile, PipeDeviceFolderOrSocketIsRefusedUnread) {
   const scenario::ScenarioFolder folder;
   const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // no process ever writes to it
@@ -65,7 +65,7 @@ TEST(InputFile, APipeOfAShellIsRefusedAndItsWriterIsNotDisturbed) {
   ::close(ends[1]);
 }
 
-TEST(InputFile, WhatIsMissingOrTooLargeIsTold) {
+TEST(InputFile, MissingOrTooLargeFileIsRefused) {
   const scenario::ScenarioFolder folder;
   const std::string missing = folder.path() / "none.csv";
   EXPECT_EQ(refusal(missing), missing + ": there is no such file; give a table");

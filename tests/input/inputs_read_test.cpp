@@ -1,11 +1,11 @@
-#include "tools/input/inputs_read.h"
+#include "scenarios/input/inputs_read.h"
 
 #include <gtest/gtest.h>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/sha256.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/input/input_file.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::input {
 namespace {

@@ -1,5 +1,5 @@
 // A message is one clean line, whatever it quotes.
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "tools/input/error.h"
+#include "scenarios/input/error.h"
 
 namespace lcs::input {
 namespace {
@@ -18,7 +18,7 @@ TEST(Message, BeginsWithTheNameOfAFileIfThereIsOne) {
   EXPECT_STREQ(Error({"", 0}, "fault; remedy").what(), "fault; remedy");
 }
 
-TEST(Message, WhatDoesNotShowIsEscaped) {
+TEST(Message, UnprintableCharactersAreEscaped) {
   EXPECT_EQ(printable("caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),
             "caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
   EXPECT_EQ(printable(std::string_view("\x1b[2J\x00|\x7f|\r", 9)), "\\x1b[2J\\x00|\\x7f|\\x0d");

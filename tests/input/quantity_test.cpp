@@ -1,4 +1,4 @@
-#include "tools/input/reader.h"
+#include "scenarios/input/reader.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(Quantity, AnUnknownUnitIsNamed) {
             "'5 M' has the unknown unit 'M'; give a length in m, cm, mm or km");
 }
 
-TEST(Quantity, WhatIsNoFiniteNumberIsRefused) {
+TEST(Quantity, TextWithoutAFiniteNumberIsRefused) {
   for (const char* text : {"", "m", "fast", "+-1", "--1 m"}) {
     EXPECT_NE(refusal(text, Dimension::length).find("is not a number; give a length"),
               std::string::npos)

@@ -1,4 +1,4 @@
-#include "tools/input/sha256.h"
+#include "scenarios/input/sha256.h"
 
 #include <gtest/gtest.h>
 

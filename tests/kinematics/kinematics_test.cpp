@@ -182,7 +182,7 @@ TEST(KinematicsModels, TheReferenceDepthErrsByTheDifferenceOfInverseDepths) {
 /// Two sightings are each rounded by up to half a pixel. Their difference covers kLearningSteps
 /// steps, so one step errs by at most sqrt(2) / kLearningSteps px, and a little more as the point
 /// approaches.
-TEST(KinematicsModels, WhatIsLearntIsGoodForAFractionOfAPixel) {
+TEST(KinematicsModels, LearntDepthErrsByAFractionOfAPixel) {
   const PointSet points = geometric_points(vga(), std::array{3.0, 8.0});
   const sim::Pose T_CN{Eigen::Matrix3d::Identity(), {0, 0, 0.05}};
   const auto off = errors_after(points, T_CN, {RotationModel::homography, DepthSource::learnt});
@@ -302,7 +302,7 @@ TEST(KinematicsParallel, DoesEveryPieceOnceAndTellsOfAll) {
   EXPECT_EQ(told, 100);
 }
 
-TEST(KinematicsParallel, WhatAPieceOrTheListenerThrowsComesBack) {
+TEST(KinematicsParallel, ExceptionOfAPieceOrTheListenerComesBack) {
   const auto nothing = [](int) {};
   EXPECT_THROW(process::for_each_parallel(
                    50,

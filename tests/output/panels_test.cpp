@@ -300,7 +300,7 @@ TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
   }
 }
 
-TEST_P(Panels, WhatIsMissedAndFalseIsMarked) {
+TEST_P(Panels, MissedAndFalseFindingsAreMarked) {
   scene_.corners = {{100, 100}, {200, 100}, {300, 100}};
   scene_.verdicts = {Verdict::rebel, Verdict::normal, Verdict::rebel};
   scene_.corner_marks = {Mark::found, Mark::missed, Mark::wrong};

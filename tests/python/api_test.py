@@ -276,7 +276,7 @@ class Frames(unittest.TestCase):
             self.assertRegex(text, "^Error.*spawn")
         self.assertEqual(len(list(simulation)), 3)
 
-    def test_what_cannot_be_simulated_is_told(self):
+    def test_impossible_simulations_are_refused(self):
         with self.assertRaisesRegex(lcs.Error, "moves body 'ghost', which the scene lacks"):
             lcs.simulate(small(**{"actors.ghost.body": "ghost", "actors.ghost.trajectory.line.speed": 1}))
         for nothing in (CROSSING, None):
@@ -474,7 +474,7 @@ class Scores(unittest.TestCase):
         self.assertEqual(metrics["rebel.precision"], 0)
         self.assertEqual(lcs.score([])["frames"], 0)
 
-    def test_what_is_refused_counts_for_nothing(self):
+    def test_refused_frames_count_for_nothing(self):
         scorer = lcs.Scorer()
         frame = self.frames[0]
         n = len(frame.corners)

@@ -198,7 +198,7 @@ class Interrupting(InAFolder):
             lcs.suite(**{**request, "seeds": 3})
         self.assertEqual(len(lcs.suite(**request)["runs"]), 6)
 
-    def test_what_one_call_has_read_another_may_replace(self):
+    def test_files_that_one_call_has_read_may_be_replaced(self):
         lcs.suite("small.yaml", seeds=1, out="out/again")
         lcs.compare("out/again", "out/again")
         self.assertEqual(lcs.suite("small.yaml", seeds=1, out="out/again")["outcome"], "passed")

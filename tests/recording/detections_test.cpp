@@ -253,7 +253,7 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4",
        "the frame has a box 1 already; an id is one object's"},
       {"3,mask,1,48,96", "not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS"},
-      {"3,mask,1,48,x,0P`4", "the mask's width is 'x'; give that of the picture"},
+      {"3,mask,1,48,x,0P`4", "the mask's width is 'x'; give the picture's size"},
       {"3,mask,1,24,48,0Pb0",
        "the mask is of 48 x 24 pixels, and a corner lies at 50, 20; give one of the picture's "
        "size"},
@@ -290,7 +290,7 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
   }
 }
 
-TEST_F(DetectionsTest, WhatIsNotInTheCamerasPictureIsRefused) {
+TEST_F(DetectionsTest, DetectionsThatDoNotFitThePictureAreRefused) {
   const std::string outside =
       " lies outside of the picture, which has 96 x 48 pixels; leave out what is not in it";
   const std::string too_far =
@@ -324,7 +324,7 @@ TEST_F(DetectionsTest, WhatIsNotInTheCamerasPictureIsRefused) {
   }
 }
 
-TEST_F(DetectionsTest, WhatReachesOverThePicturesEdgeIsKeptAsItIs) {
+TEST_F(DetectionsTest, DetectionOverThePicturesEdgeIsKeptAsItIs) {
   const FrameRecord frame =
       detections(
           "3,box,1,-10,-10,20,20\n3,box,2,95.9,47.9,30,30\n3,square,3,96,20,0,3\n"
@@ -354,8 +354,8 @@ TEST_F(DetectionsTest, AFrameHasNoMoreThanAsManyOfEachKind) {
     return all;
   };
   for (const auto& [most, row, what] :
-       {std::tuple{kMostBoxes, "3,box,{},0,0,4,4\n", "boxes in the frame; give those of objects"},
-        {kMostCircles, "3,circle,9,9,4\n", "circles in the frame; give those of objects"},
+       {std::tuple{kMostBoxes, "3,box,{},0,0,4,4\n", "boxes in the frame; give objects' boxes"},
+        {kMostCircles, "3,circle,9,9,4\n", "circles in the frame; give objects' circles"},
         {kMostPlaces, "3,rebel,9,9\n",
          "verdicts by place in the frame; give the corners' indices"}}) {
     EXPECT_NO_THROW(detections(rows(most, row), seen_by_a_camera())) << row;

@@ -152,7 +152,7 @@ TEST_F(LabelsFile, OfKittiTrackingCountFromZero) {
   expect_box(all.of(1)->front(), 3, 10.5, 20, 30.5, 40);
 }
 
-TEST_F(LabelsFile, ThatMatchNoPictureAreRefused) {
+TEST_F(LabelsFile, LabelsOfNoPictureAreRefused) {
   const Labels all = labels("372,1,1,1,5,5\n");
   const std::string what = refusal_of<std::invalid_argument>([&] { joined(all, 40); });
   EXPECT_EQ(what,
@@ -160,7 +160,7 @@ TEST_F(LabelsFile, ThatMatchNoPictureAreRefused) {
             "recording: the first labels are of picture 372, and the recording begins with 0.png");
 }
 
-TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
+TEST_F(LabelsFile, BrokenLabelsAreRefusedAtTheirLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "gt.txt: is empty; give boxes as gt.txt"},
       {" \n\n", "gt.txt: is empty"},
@@ -187,7 +187,7 @@ TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
       {R"({"images": [{"id": 1, "file_name": "x/a"}, {"id": 2, "file_name": "y/a"}], "annotations": []})",
        "images[1].file_name is not one that no other image has"},
       {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 0, 1]}]})",
-       "annotations[0].bbox is not that of a mover: the box has no area"},
+       "annotations[0].bbox is not a mover's box: the box has no area"},
       {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 1]}]})",
        "annotations[0].bbox is not a list of 4 numbers"},
   };

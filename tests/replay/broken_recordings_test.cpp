@@ -247,7 +247,7 @@ TEST_F(BrokenRecording, WithoutTheCamerasPlaceOnTheImuIsRefused) {
       << result.err;
 }
 
-TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) {
+TEST_F(BrokenRecording, UnplayableDataIsToldInOneLineAndLeavesNoOutput) {
   const auto refused = [&](const std::string& expected) {
     fs::remove_all(home_.path() / "out");
     const CommandResult result = replay();

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/input/error.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/input/error.h"
 
 namespace lcs::replay {
 namespace {
@@ -56,7 +56,7 @@ TEST(PictureNames, OfTwoPossibleOrdersAreRefused) {
   EXPECT_NE(refusal({"v1.9.png", "v1.10.png"}).find("may be fractions"), std::string::npos);
 }
 
-TEST(PictureNames, ThatAreTimesGiveThem) {
+TEST(PictureNames, TimestampsAreReadAsTimes) {
   const OrderedPictures seconds = ordered({"1001.000000.png", "1000.900000.png"});
   EXPECT_EQ(seconds.files.front(), "1000.900000.png");
   EXPECT_EQ(seconds.t_ns, (std::vector<std::int64_t>{1'000'900'000'000, 1'001'000'000'000}));

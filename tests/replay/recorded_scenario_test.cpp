@@ -366,7 +366,7 @@ TEST_F(RecordedScenario, OfKittiRawTakesJpegAndTheClockOfTheNavigation) {
   EXPECT_NEAR(seen.frames[2].motion.w_C_radps.y(), -kYawRate_radps, 1e-4);
   EXPECT_NEAR(seen.frames[2].motion.v_C_mps.z(), kSpeed_mps, 1e-2);
   expect_ground(seen, 1.65, {0, -1, 0});
-  EXPECT_NE(playback_of_it.told().front().find("those of the navigation are used"),
+  EXPECT_NE(playback_of_it.told().front().find("the times of the navigation are used"),
             std::string::npos);
 }
 
@@ -414,7 +414,7 @@ TEST_F(RecordedScenario, AllThatItLacksIsToldInOneMessage) {
             std::string::npos);
 }
 
-TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
+TEST_F(RecordedScenario, UnusableInputIsRefusedWithItsPlace) {
   draw(home() / "pictures", "{}.png");
   const std::string pictures = "path: pictures, fps: 10, focal: 300, ";
   write(home() / "poses.txt", "1 2 3\n");
@@ -438,7 +438,7 @@ TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
   draw(odometry / "image_0", "{:06}.png");
   write(odometry / "calib.txt", "P0: 0.5 0 80 0 0 0.5 60 0 0 0 1 0\n");
   write(odometry / "times.txt", "0\n.1\n.2\n.3\n");
-  EXPECT_NE(refusal("path: 07, speed: 1").find("those of no camera"), std::string::npos);
+  EXPECT_NE(refusal("path: 07, speed: 1").find("px fit no camera"), std::string::npos);
   EXPECT_NE(refusal("path: 07, speed: 1, fps: 12").find("remove fps"), std::string::npos);
   write(odometry / "calib.txt", "P0: 700 0 80\n");
   EXPECT_NE(refusal("path: 07, speed: 1").find("P0 is missing, or is not 12 numbers"),

@@ -4,9 +4,9 @@
 
 #include <ostream>
 
+#include "scenarios/input/spelling.h"
 #include "tests/scenarios/scenario_file.h"
 #include "tests/tools/refusal.h"
-#include "tools/input/spelling.h"
 
 namespace lcs::scenario {
 namespace {
@@ -321,9 +321,10 @@ INSTANTIATE_TEST_SUITE_P(
               "5: both actors.a.shape and actors.a.body are given; keep one of them"),
         added("NeitherShapeNorBody", "actors:\n  a: {trajectory: {still: {}}}\n",
               "5: actors.a needs 'shape' or 'body'; add it (scenarios/README.md shows how)"),
-        added("UnknownShape", "actors:\n  a: {shape: ball, trajectory: {still: {}}}\n",
-              "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car, walker or the path "
-              "of an .xml file"),
+        added(
+            "UnknownShape", "actors:\n  a: {shape: ball, trajectory: {still: {}}}\n",
+            "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car, walker or the path "
+            "of an .xml file"),
         added("NoOwnShape", "actors:\n  a: {shape: truck.xml, trajectory: {still: {}}}\n",
               "5: actors.a.shape: there is no file truck.xml; give its path relative to the "
               "scenario file"),
@@ -455,7 +456,7 @@ TEST(Refused, AMissingSceneSaysWhereItWasLookedFor) {
 }
 
 // The middle of these messages comes from yaml-cpp.
-TEST(Refused, WhatIsNotYamlWithItsLine) {
+TEST(Refused, BrokenYamlWithItsLine) {
   const auto expect_not_yaml = [](const std::string& text, int line) {
     const std::string message = refusal(text);
     const std::string begin = "test.yaml:" + std::to_string(line) + ": this is not YAML: ";

@@ -188,7 +188,7 @@ ground: {roughness: 4 mm, wavelength: 40 cm, centre: [1 m, 2 m], size: [6 m, 3 m
   EXPECT_EQ(s.ground->size_m, Eigen::Vector2d(6, 3));
 }
 
-TEST(Load, WhatIsToldOfTheCameraArrives) {
+TEST(Load, ToldErrorsOfTheCameraArrive) {
   const Scenario s =
       load_text(smallest + "camera: {told: {height_error: -3 cm, pitch_error: 1 deg}}\n");
   EXPECT_EQ(s.camera.told.height_error_m, -0.03);
@@ -227,7 +227,7 @@ TEST(Load, TurnOnBiasAndGapsOfTheImuArrive) {
   EXPECT_EQ(s.imu.gaps[1].to_s, 3.2);
 }
 
-TEST(Load, WhatIsWrongInTheImageTheGroundOrAGapIsRefusedAtItsLine) {
+TEST(Load, WrongImageGroundOrGapIsRefusedAtItsLine) {
   const auto said = [](const std::string& line) { return refusal(smallest + line + "\n"); };
   EXPECT_EQ(
       said("image: {light: 5 cd}"),
@@ -470,7 +470,7 @@ TEST(Load, TheEgosWaypointsGiveItsStartAndHeading) {
   EXPECT_DOUBLE_EQ(s.ego.heading_rad, pi / 2);
 }
 
-TEST(Load, WhatLcsScenesPutsBeforeTheProjectsOwnIsTold) {
+TEST(Load, FilesShadowedByLcsScenesAreTold) {
   const ScenarioFolder folder;
   std::filesystem::create_directories(folder.path() / "ego");
   folder.write("lab.xml", "<mujoco/>");

@@ -103,7 +103,7 @@ TEST_F(RecordingKeys, CanBeSweptAndSet) {
   EXPECT_EQ(s.sweep.size(), 1u);
 }
 
-TEST_F(RecordingKeys, ThatAreWrongAreRefusedAtTheirLine) {
+TEST_F(RecordingKeys, WrongKeysAreRefusedAtTheirLine) {
   const std::string more = "recording:\n  path: drive\n  ";
   const std::pair<std::string, std::string> cases[] = {
       {"recording: {path: drive}\nscene: lab\n",

@@ -77,7 +77,7 @@ TEST(Set, AddsAWholeActor) {
   EXPECT_EQ(s.actors[1].shape, Shape::car);
 }
 
-TEST(Set, WhatIsWrongIsReportedAtTheAssignment) {
+TEST(Set, MistakesAreReportedAtTheAssignment) {
   EXPECT_EQ(refusal_with("ego.speed"),
             "--set ego.speed: this is not of the form key=value; write it as in ego.speed=0.7");
   EXPECT_EQ(refusal_with("=5"),

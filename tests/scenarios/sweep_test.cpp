@@ -28,7 +28,7 @@ TEST(Groups, AreShortUnlessTheFileSays) {
             (std::vector<std::string>{"long", "night-2"}));
 }
 
-TEST(Groups, WhatIsNoGroupIsRefusedAtItsLine) {
+TEST(Groups, InvalidGroupsAreRefusedAtTheirLine) {
   EXPECT_EQ(refusal(smallest + "groups: short\n"),
             "test.yaml:4: groups is a single value; give a list, as in [...]");
   EXPECT_EQ(refusal(smallest + "groups: []\n"),
@@ -97,7 +97,7 @@ TEST(Sweep, ValuesOfEveryKindReadBackAsTheyWere) {
   EXPECT_EQ(last.actors[0].texture, "\"");
 }
 
-TEST(Sweep, WhatAKeyDoesNotTakeIsRefusedAtTheLineOfTheValue) {
+TEST(Sweep, WrongKeyOrValueIsRefusedAtItsLine) {
   EXPECT_EQ(sweep_refusal("sweep:\n  ego.speed:\n    - 0.2 m/s\n    - 9 deg\n"),
             "test.yaml:7: sweep.ego.speed: ego.speed: '9 deg' is an angle; give a speed in m/s, "
             "cm/s, mm/s or km/h");

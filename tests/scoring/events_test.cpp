@@ -374,7 +374,7 @@ TEST(EventsFile, ComesBackAsItWas) {
   }
 }
 
-TEST(EventsFile, WhatIsWrongIsToldWithTheFile) {
+TEST(EventsFile, MistakesAreToldWithTheFile) {
   const TemporaryFolder folder;
   const auto file = folder.path() / kEventsFile;
   const auto expect_error = [&](const std::string& part) {

@@ -156,7 +156,7 @@ TEST(FramesCsv, LeavesOutWhatADetectorWithoutLayersDoesNotHave) {
   EXPECT_EQ(rows[3].at("filter_ms"), "1.5");
 }
 
-TEST(FramesCsv, ThatDoesNotFitTheRecordingIsRefusedAtItsLine) {
+TEST(FramesCsv, MismatchWithTheRecordingIsRefusedAtItsLine) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kFramesFile;
   Recording recording = five_frames(true);
@@ -232,7 +232,7 @@ TEST(MetricsJson, ComesBackToTheLastBit) {
   EXPECT_EQ(read_metrics(folder.path() / kMetricsFile), metrics);
 }
 
-TEST(MetricsJson, ThatIsMissingOrDamagedIsNamed) {
+TEST(MetricsJson, MissingOrDamagedFileIsNamed) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kMetricsFile;
   const auto refusal = [&] { return refusal_of<std::runtime_error>([&] { read_metrics(path); }); };

@@ -18,6 +18,7 @@
 #include <sstream>
 #include <thread>
 
+#include "scenarios/input/sha256.h"
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tests/sequence/rows.h"
@@ -26,7 +27,6 @@
 #include "tests/tools/sequences.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/csv.h"
-#include "tools/input/sha256.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/text_file.h"
@@ -762,7 +762,7 @@ TEST_F(GenerateInParts, ExposuresAreThoseOfTheSimulationWhateverMakesThem) {
             std::string::npos);
 }
 
-TEST_F(GenerateInParts, WhatIsWrongWithItsWorldIsToldOnceHoweverManyProcessesMakeIt) {
+TEST_F(GenerateInParts, RoverCollisionIsToldOnceWithAnyNumberOfJobs) {
   const std::vector<std::string> into{
       "--set",
       "ego.speed=3 m/s",

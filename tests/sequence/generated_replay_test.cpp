@@ -7,10 +7,10 @@
 #include <map>
 #include <regex>
 
+#include "scenarios/input/document.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/input/document.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
 #include "tools/scoring/figures_file.h"

@@ -327,7 +327,7 @@ TEST_F(Rig, TheReplayOfEachCameraIsTheRunOfTheFilterOnIt) {
       << unknown.err;
 }
 
-TEST_F(Rig, ThatIsNotRectifiedIsRefusedForKitti) {
+TEST_F(Rig, UnrectifiedCamerasAreRefusedForKitti) {
   for (const std::string& cameras :
        {std::string(kConverging),
         std::string("cameras: {a: {}, b: {position: [0.3 m, -0.1 m, 0.45 m]}}\n"),

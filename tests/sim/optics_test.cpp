@@ -1,5 +1,5 @@
 // Lenses against OpenCV's projections, and their pictures against rays cast through the model.
-#include "sim/camera/optics.h"
+#include "sim/base/optics.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/base/random.h"
 #include "sim/camera/lens_renderer.h"
-#include "sim/random.h"
 #include "sim/simulation.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scenarios/load.h"
-#include "sim/truth/silhouette.h"
+#include "sim/scene/silhouette.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"

@@ -118,7 +118,7 @@ TEST(Photograph, ExposureAndGainAndLightScaleAlike) {
   EXPECT_NEAR(linear_at(dark, 5, 5), linear_at(grey(200), 5, 5) / 2, 0.004);
 }
 
-TEST(Photograph, WhatFillsAPixelIsLostWhateverTheGain) {
+TEST(Photograph, LightAboveAFullPixelIsLostWhateverTheGain) {
   Image image = noiseless();
   image.exposure_s = 8e-3;
   image.gain = 0.25;

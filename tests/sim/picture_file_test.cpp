@@ -154,7 +154,7 @@ TEST(Picture, OfAnotherFormatIsRefusedWithThoseThatAreRead) {
   }
 }
 
-TEST(Picture, ThatIsCutOffIsRefusedWithoutALibrarysText) {
+TEST(Picture, TruncatedFileIsRefusedWithoutALibrarysText) {
   for (const auto& [kind, bytes] : pictures(37, 21)) {
     for (const double part : {0.5, 0.9}) {
       const auto length = static_cast<std::size_t>(part * static_cast<double>(bytes.size()));
@@ -167,7 +167,7 @@ TEST(Picture, ThatIsCutOffIsRefusedWithoutALibrarysText) {
   }
 }
 
-TEST(Picture, ThatIsDamagedIsRefusedWithoutALibrarysText) {
+TEST(Picture, DamagedFileIsRefusedWithoutALibrarysText) {
   auto all = pictures(80, 60);
   for (const char* kind : {"png", "deep png", "jpeg", "grey jpeg", "jpeg with restarts"}) {
     std::string bytes = all[kind];
@@ -179,7 +179,7 @@ TEST(Picture, ThatIsDamagedIsRefusedWithoutALibrarysText) {
   }
 }
 
-TEST(Picture, ThatIsDamagedIsToldFromWhatAnotherThreadWritesToStderr) {
+TEST(Picture, DamageIsToldApartFromStderrOfAnotherThread) {
   std::string bytes = pictures(80, 60)["jpeg"];
   bytes.replace(bytes.size() / 2, 40, std::string(40, '\xff'));
   constexpr int kLines = 300;

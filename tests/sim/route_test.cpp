@@ -127,7 +127,7 @@ TEST(Route, BeforeTheFirstWaypointTheRoverStandsThere) {
   EXPECT_LT(distance(world, {2, 1}), 0.01);
 }
 
-TEST(Route, WhatNoRoverCouldDoIsRefusedAtItsWaypoint) {
+TEST(Route, ImpossibleMotionIsRefusedAtItsWaypoint) {
   const auto refusal = [](const std::vector<Waypoint>& waypoints) {
     return scenario_error([&] { World world(along(waypoints)); });
   };

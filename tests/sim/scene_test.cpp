@@ -10,7 +10,7 @@
 #include <fstream>
 #include <optional>
 
-#include "sim/truth/silhouette.h"
+#include "sim/scene/silhouette.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"
@@ -150,7 +150,7 @@ TEST(Scene, MissingOrMalformedFilesAreNamedWithTheirLine) {
   expect_error(s, {s.scene.string()});
 }
 
-TEST(Scene, WhatMujocoRefusesIsPassedOn) {
+TEST(Scene, MujocoErrorIsPassedOn) {
   const auto s = scenario_in_mjcf(floor_with("<geom type='box' size='-1 1 1'/>"), 0, 1);
   expect_error(s, {s.scene.string(), "size"});
 }
@@ -416,7 +416,7 @@ TEST(Scene, OptionsOfASceneDoNotSpoilTheSensors) {
   EXPECT_NEAR(world.v_WB_mps().x(), 0.5, 1e-6);
 }
 
-TEST(Physics, WhatFallsThroughTheFloorIsOutOfSightAndTheRunGoesOn) {
+TEST(Physics, BodyThroughTheFloorLeavesSightAndTheRunGoesOn) {
   const std::string stone =
       "<body name='stone' pos='3 0 .4'><freejoint/>"
       "<geom size='.2' contype='0' conaffinity='0'/></body>";
@@ -449,7 +449,7 @@ TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {
   EXPECT_NE(message.find("; look for huge masses"), std::string::npos) << message;
 }
 
-TEST(Physics, WhatTheEngineGivesUpOnIsToldWithTheSimulatedTime) {
+TEST(Physics, EngineErrorIsToldWithTheSimulatedTime) {
   // too little memory for a step: an error of the engine, whereas divergence is a warning
   std::string mjcf =
       floor_with("<body name='ball' pos='3 0 1'><freejoint/><geom size='.1'/></body>");

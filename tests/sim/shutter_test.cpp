@@ -1,5 +1,5 @@
 // Rolling shutter and exposure against pictures of single instants, and against closed forms.
-#include "sim/camera/shutter.h"
+#include "sim/base/shutter.h"
 
 #include <gtest/gtest.h>
 

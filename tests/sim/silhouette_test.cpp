@@ -1,4 +1,4 @@
-#include "sim/truth/silhouette.h"
+#include "sim/scene/silhouette.h"
 
 #include <gtest/gtest.h>
 

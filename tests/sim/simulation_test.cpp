@@ -213,7 +213,7 @@ TEST(Simulation, HasNoOdometryUnlessAsked) {
   while (const auto o = simulation.next()) EXPECT_TRUE(o->odometry.empty());
 }
 
-TEST(Simulation, WhatComesNextIsWhatIsThenAlsoAfterTheLastFrame) {
+TEST(Simulation, NextPosesAreThoseOfTheNextFrameAlsoAfterTheLast) {
   auto s = scenario_in("lab", 0.5, 3);
   s.actors = {line_actor("box", Shape::box, {1, -1}, 1.5, 0.5)};
   Simulation simulation(s);
@@ -255,7 +255,7 @@ TEST(Simulation, CalibrationIsTheMountingOfTheScenario) {
   EXPECT_NEAR((o.truth.now.T_WC.R - (c.T_WB_start * c.T_BC).R).norm(), 0, 1e-12);
 }
 
-TEST(Simulation, WhatIsToldOfTheMountDiffersFromItAndThePictureDoesNot) {
+TEST(Simulation, MountErrorChangesTheCalibrationAndNotThePicture) {
   auto s = scenario_in_mjcf(floor_with("<geom type='box' pos='3 0 .5' size='.2 .2 .5'/>"), 0.4, 1);
   Simulation exact(s);
   s.camera.told = {.height_error_m = 0.05, .pitch_error_rad = 0.02};

@@ -27,7 +27,7 @@ TEST(Pattern, IsARegularExpressionForAPartOfAName) {
   EXPECT_FALSE(fits("^x$", "xx"));
 }
 
-TEST(Pattern, WhatIsNoneIsRefused) {
+TEST(Pattern, InvalidPatternIsRefused) {
   for (const char* text : {"(", "[", "*", "a{2,1}", "(a)\\1"}) {
     EXPECT_EQ(refusal(text), std::string("--filter ") + text +
                                  " is not a regular expression; give a part of a name, or as "

@@ -120,7 +120,7 @@ TEST_F(SuiteFile, IsJsonWhateverBytesAChildWroteToStderr) {
             std::string::npos);
 }
 
-TEST_F(SuiteFile, ThatIsNotThereIsNamed) {
+TEST_F(SuiteFile, MissingFileIsNamed) {
   EXPECT_TRUE(refusal().starts_with(file_.string() + ": there is no such file; ")) << refusal();
 }
 
@@ -137,7 +137,7 @@ TEST(SuiteFolder, HasANameForAFileWithoutAFolderAndForWhatIsNotThere) {
   std::filesystem::current_path(before);
 }
 
-TEST_F(SuiteFile, ThatIsNotJsonIsNamedWithThePlace) {
+TEST_F(SuiteFile, InvalidJsonIsNamedWithThePlace) {
   write("{\"format\": 1, ");
   EXPECT_TRUE(refusal().starts_with(file_.string() + ":1: not JSON at byte")) << refusal();
 }
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"same_names", "/scenarios/1/name", "near<&\"", "two scenarios are called near<&\""}),
     [](const auto& test) { return test.param.name; });
 
-TEST_F(SuiteFile, ThatCannotBeWrittenIsNamed) {
+TEST_F(SuiteFile, UnwritableFileIsAnOutputError) {
   EXPECT_THROW(write_suite("/no/such/folder/suite.json", full_suite()), bench::OutputError);
   EXPECT_THROW(write_suite("/dev/full", full_suite()), bench::OutputError);
 }

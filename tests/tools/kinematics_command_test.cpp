@@ -175,7 +175,7 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   EXPECT_EQ(answer.left(), std::set<std::string>{});
 }
 
-TEST_F(Kinematics, WhatIsWrongIsToldBeforeAnythingIsDone) {
+TEST_F(Kinematics, MistakesAreToldBeforeAnythingIsDone) {
   const struct {
     std::vector<std::string> arguments;
     std::string said;

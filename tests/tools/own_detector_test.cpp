@@ -206,7 +206,7 @@ TEST_F(OwnDetector, MayGiveMasksAsCocosToolsHaveThem) {
   EXPECT_EQ(bench::edges_of(squares[1]), Eigen::Vector4d(0, 0, 1, 240));
 }
 
-TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOutput) {
+TEST_F(OwnDetector, ProtocolFaultEndsTheRunWithOneMessageAndNoOutput) {
   const std::map<std::string, std::string> faults{
       {"silent",
        "its greeting: no answer within 4 s; end each answer with a line end and flush it"},
@@ -271,7 +271,7 @@ TEST_F(OwnDetector, IsCheckedAgainstTheCamera) {
       {"outside", "the box from 319.5, -0.5 to 324.5, 4.5 lies outside of the picture, which has"},
       {"corner outside", "the corner at 10, -3 lies outside of the picture, which has 320 x 240"},
       {"large id", "the id is 18446744073709551615; give a whole number up to 9007199254740991"},
-      {"crowd", "there are more than 1000 boxes in the frame; give those of objects"},
+      {"crowd", "there are more than 1000 boxes in the frame; give objects' boxes"},
   };
   for (const auto& [mode, said] : faults) {
     const CommandResult command = lcs(run_arguments(mode));
@@ -283,11 +283,11 @@ TEST_F(OwnDetector, IsCheckedAgainstTheCamera) {
   }
 }
 
-TEST_F(OwnDetector, WhoseExceptionIsToldWithItsLastLine) {
+TEST_F(OwnDetector, ExceptionIsToldWithItsLastLine) {
   EXPECT_NE(lcs(run_arguments("dies")).err.find("ValueError: of frame 3"), std::string::npos);
 }
 
-TEST_F(OwnDetector, ThatIsNotThereOrBadlyNamedIsToldBeforeAnyOutput) {
+TEST_F(OwnDetector, MissingOrMisnamedOneIsToldBeforeAnyOutput) {
   const auto said = [&](const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"run", "scenarios/near.yaml", "--out", "out"};
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -390,7 +390,7 @@ TEST_F(OwnDetector, OfAnyCommandOfAShellEndsWithAProgramThatIsKilled) {
   }
 }
 
-TEST_F(OwnDetector, ThatFailsInOneRunOfASuiteLeavesTheOthers) {
+TEST_F(OwnDetector, FailureInOneRunOfASuiteLeavesTheOthers) {
   scenario("far");
   const CommandResult command =
       lcs({"suite", "scenarios", "--seeds", "1", "--out", "suite", "--quiet", "--detector", "mine",

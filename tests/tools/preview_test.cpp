@@ -82,7 +82,7 @@ TEST_F(PreviewCommand, ALargeCameraIsLookedThroughAtASmallerSize) {
   }
   EXPECT_EQ(p.movers.front().looks, 2);
   write_preview(folder_.path() / "page.html", load(large), p);
-  EXPECT_NE(read(folder_.path() / "page.html").find("those of 2896 x 1448 pixels"),
+  EXPECT_NE(read(folder_.path() / "page.html").find("made at 2896 x 1448 pixels"),
             std::string::npos);
   EXPECT_EQ(preview(load({"frames=1"})).looks.front().image_px, cv::Size(160, 120));
 }

@@ -137,7 +137,7 @@ TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
   }
 }
 
-TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
+TEST_F(Run, CollisionIsToldAndARecordingTellsTheSame) {
   // The box starts one second's drive ahead of the rover.
   const std::vector<std::string> into{
       "--set", "ego.speed=2 m/s", "--set",
@@ -563,7 +563,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unwritable_folder", {kCrossing, "--out", "/proc/lcs"}, "/proc/lcs"}),
     [](const auto& test) { return test.param.name; });
 
-TEST_F(Run, WhoWatchesBesideOthersSaysWhatItSaysAlone) {
+TEST_F(Run, DetectorBesideOthersSaysWhatItSaysAlone) {
   const std::vector<std::string> all{"--set",    "frames=8",         "--beside", "klt=klt",
                                      "--beside", "lcs:lab=lab/here", "--out",    "own"};
   const CommandResult together = run(brief(all));

@@ -177,7 +177,7 @@ TEST_F(Score, FilesOfOthersAreNotReplaced) {
   EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0) << "its own";
 }
 
-TEST_F(Score, WhatIsQuotedFromDataIsOneCleanLine) {
+TEST_F(Score, QuotedDataIsOneCleanLine) {
   make_run("lcs", "frames=4");
   std::ofstream(folder_.path() / "bad.csv")
       << "3,rebel," << std::string(10'000'000, 'x') << "\x1b[31m" << '\0' << "\xff,0\n";

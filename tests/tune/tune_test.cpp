@@ -14,13 +14,13 @@
 #include <stdexcept>
 #include <thread>
 
-#include "filter/learnt.h"
+#include "filter/types/learnt.h"
+#include "scenarios/input/input_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output_file.h"
-#include "tools/input/input_file.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/evaluations.h"
 #include "tools/tune/search.h"

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "scenarios/input/input_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/input/input_file.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::worlds {
@@ -317,9 +317,8 @@ TEST_F(WorldCommand, ItsOriginChangesNoPicture) {
   const auto one = bench::bytes_in(folder_.path() / "of_w");
   auto other = bench::bytes_in(folder_.path() / "of_without");
   for (const auto& [path, bytes] : one) {
-    const bool tells_of_it =
-        path == "lcs.json" || path == "scenario.yaml" || path == "manifest.json" ||
-        path == ".lcs-written";
+    const bool tells_of_it = path == "lcs.json" || path == "scenario.yaml" ||
+                             path == "manifest.json" || path == ".lcs-written";
     EXPECT_TRUE(tells_of_it || bytes == other[path]) << path;
   }
 }

@@ -1,5 +1,5 @@
 // Drawn and written worlds, compared with the simulator's truth.
-#include "tools/worlds/worlds.h"
+#include "scenes/worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -12,17 +12,18 @@
 #include <tuple>
 
 #include "scenarios/load.h"
+#include "scenes/worlds/kit.h"
+#include "scenes/worlds/meshes.h"
+#include "scenes/worlds/rover.h"
+#include "scenes/worlds/textures.h"
 #include "sim/drive.h"
 #include "sim/scene/mujoco.h"
 #include "sim/simulation.h"
 #include "tests/tools/files.h"
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/worlds/kit.h"
-#include "tools/worlds/meshes.h"
-#include "tools/worlds/rover.h"
-#include "tools/worlds/sheet.h"
-#include "tools/worlds/textures.h"
+#include "tools/app/world_folder.h"
+#include "tools/preview/sheet.h"
 
 namespace lcs::worlds {
 namespace {
@@ -41,7 +42,7 @@ const std::vector<World>& sixty() {
 }
 
 fs::path written(const World& world, const bench::TemporaryFolder& folder) {
-  write_world(world, folder.path());
+  app::write_world(world, folder.path());
   return folder.path() / (name_of(world) + ".yaml");
 }
 
@@ -63,9 +64,9 @@ std::vector<World> small_ones() {
 TEST(Worlds, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
   for (const std::string& family : families()) {
     const bench::TemporaryFolder one, again, other;
-    write_world(draw_world({family, 5}), one.path());
-    write_world(draw_world({family, 5}), again.path());
-    write_world(draw_world({family, 6}), other.path());
+    app::write_world(draw_world({family, 5}), one.path());
+    app::write_world(draw_world({family, 5}), again.path());
+    app::write_world(draw_world({family, 6}), other.path());
     const auto bytes = bench::bytes_in(one.path());
     EXPECT_GT(bytes.size(), 10u);
     EXPECT_TRUE(bytes == bench::bytes_in(again.path())) << family;
@@ -150,7 +151,7 @@ TEST(Worlds, ANameOfOldMeansAWorld) {
   }
 }
 
-TEST(Worlds, WhatMustOccurOccurs) {
+TEST(Worlds, EveryFeatureOccursAtLeastTwice) {
   std::map<std::string, int> count;
   for (const World& world : sixty()) {
     for (const std::string& feature : world.features) ++count[feature];
@@ -288,7 +289,7 @@ int count_of(const cv::Mat3b& picture, const cv::Vec3b& colour) {
 TEST(Sheet, ThePlanHasAPathForWhatMovesAndNoneWhereNothingDoes) {
   const cv::Vec3b moves(255, 0, 255), rover(220, 80, 0);
   for (const World& world : sixty()) {
-    const cv::Mat3b picture = plan(world);
+    const cv::Mat3b picture = preview::plan(world);
     EXPECT_GT(count_of(picture, rover), 5) << name_of(world);
     if (world.scenario.actors.empty()) {
       EXPECT_EQ(count_of(picture, moves), 0) << name_of(world);
@@ -305,14 +306,14 @@ TEST(Sheet, HasBoxesWhereTheTruthHasThemAtAnyScaleOfThePicture) {
   std::tie(thing.left, thing.top, thing.right, thing.bottom) = std::tuple{400, 300, 600, 400};
   mover.moving = true;
   for (const double scale : {1.0, 0.5, 0.25}) {  // scales of an image of 960 x 720
-    Shots shots;
-    for (Shot& shot : shots) {
+    preview::Shots shots;
+    for (preview::Shot& shot : shots) {
       shot.picture = cv::Mat3b(cvRound(720 * scale), cvRound(960 * scale), cv::Vec3b(9, 9, 9));
       shot.scale = scale;
       shot.objects = {mover, thing};
     }
     for (const int columns : {2, 4}) {
-      const cv::Mat3b sheet = contact_sheet(shots, {}, columns);
+      const cv::Mat3b sheet = preview::contact_sheet(shots, {}, columns);
       ASSERT_EQ(sheet.size(), columns == 2 ? cv::Size(960, 720) : cv::Size(1920, 360));
       for (int tile = 0; tile < 3; ++tile) {
         const cv::Point corner(tile % columns * 480, tile / columns * 360);
@@ -324,7 +325,7 @@ TEST(Sheet, HasBoxesWhereTheTruthHasThemAtAnyScaleOfThePicture) {
       }
     }
   }
-  EXPECT_EQ(frames_shown(60), (std::array{0, 30, 59}));
+  EXPECT_EQ(preview::frames_shown(60), (std::array{0, 30, 59}));
 }
 
 TEST(Worlds, SplitsAreDisjointAndSpreadOverTheFamilies) {

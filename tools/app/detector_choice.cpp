@@ -3,7 +3,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "tools/input/inputs_read.h"
+#include "scenarios/input/inputs_read.h"
 
 namespace lcs::app {
 

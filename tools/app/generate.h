@@ -22,7 +22,7 @@ struct GenerateRequest {
   WorldsChoice worlds;               ///< a sequence for each world, in place of `paths`
   std::string out;                   ///< folder; "" is data/<scenario's name>, data with `suite`
   std::vector<std::string> formats;  ///< empty: the usual ones
-  bool add = false;                  ///< to those of a finished sequence in `out`
+  bool add = false;                  ///< adds the formats to a finished sequence in `out`
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;     ///< "key=value"
   int frames = 0;                    ///< 0: all frames of the scenario
@@ -58,7 +58,7 @@ struct SequencesMade {
   std::vector<std::string> errors;  ///< of scenarios and sequences that could not be made
 };
 
-/// Makes the sequences of a suite or of worlds, each in a process of its own. Of worlds, only those
+/// Makes the sequences of a suite or of worlds, each in a process of its own. Only the worlds
 /// of the shard are drawn. \throws as `generate`.
 SequencesMade generate_suite(const GenerateRequest& request, Caller& caller);
 

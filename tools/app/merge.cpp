@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/input/message.h"
 #include "tools/app/how_made.h"
 #include "tools/files/output.h"
 #include "tools/files/written.h"
-#include "tools/input/message.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/merge.h"
 #include "tools/suite/suite_run.h"

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/input/reader.h"
+#include "scenarios/input/reader.h"
 
 namespace lcs::app {
 
@@ -35,7 +35,7 @@ struct Option {
     bool is_output = false;                    ///< names output files, or says how to write them
     bool is_joined = false;                    ///< a word is several texts, with commas
     std::int64_t high = 0;                     ///< greatest whole number; the least is 1
-    input::Quantity quantity = {};             ///< of a number, whose unit is that of SI
+    input::Quantity quantity = {};             ///< of a number, in the SI unit
     std::optional<Kind> kind = {};             ///< if it does not follow from the value's type
     std::optional<std::string> keyword = {};   ///< in Python, if not the name; "": none
     std::function<std::string()> prints = {};  ///< of a flag that prints a text and does no more

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "scenarios/fields.h"
+#include "scenes/worlds/worlds.h"
 #include "tools/app/compare.h"
 #include "tools/app/generate.h"
 #include "tools/app/kinematics.h"
@@ -15,7 +16,6 @@
 #include "tools/app/world.h"
 #include "tools/replay/recorded.h"
 #include "tools/sequence/writer.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 namespace {
@@ -88,7 +88,7 @@ void add_threads(Options& all, int& threads, const std::string& excludes = "") {
 /// \param otherwise name of the argument in whose place the worlds are.
 void add_worlds(Options& all, WorldsChoice& worlds, const std::string& otherwise) {
   all.add("--worlds", "SPLIT", &worlds.split,
-          "Run worlds in place of scenario files: those of the split train, validate or test",
+          "Run worlds in place of scenario files, from the split train, validate or test",
           {.excludes = otherwise});
   all.add("--count", "N", &worlds.count, "How many worlds; 60 if not given",
           {.needs = "--worlds", .high = 100'000});
@@ -213,7 +213,7 @@ Options options_of(ReplayRequest& request) {
   all.add("--ego-motion", "SOURCE", &request.ego_motion,
           "imu: by dead reckoning; truth: by the recording's own truth");
   all.add("--corners", "SOURCE", &request.corners,
-          "pictures: FAST's; events: those of an event camera. If not given, pictures");
+          "pictures: FAST corners; events: corners of an event camera. If not given, pictures");
   all.add("--fast-threshold", "N|auto", &request.fast_threshold,
           "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the compression of "
           "each picture. If not given, auto or the recording's");

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenarios/input/document.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
-#include "tools/input/document.h"
 
 namespace lcs::app {
 namespace {

@@ -147,7 +147,7 @@ struct Watching {
   std::unique_ptr<bench::Result> result = {};
 };
 
-/// The run's own detector, then those of `--beside`.
+/// The run's own detector, then the detectors of `--beside`.
 std::vector<Watching> watching(const RunRequest& request, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
   all.push_back({spec_of(request.detector), target_of(request, scenario), scenario});

@@ -53,7 +53,7 @@ struct DetectorMade {
 };
 
 struct RunMade {
-  std::vector<DetectorMade> detectors;  ///< the run's own first, then those of `beside`
+  std::vector<DetectorMade> detectors;  ///< the run's own first, then `beside`'s detectors
   std::optional<int> pictures_skipped;  ///< of a recording
   scenario::Scenario scenario = {};     ///< as it was run
 };

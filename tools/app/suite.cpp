@@ -11,6 +11,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/message.h"
+#include "scenarios/input/sha256.h"
 #include "scenarios/scenes.h"
 #include "tools/app/how_made.h"
 #include "tools/app/run.h"
@@ -19,9 +22,6 @@
 #include "tools/comparators/detectors.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/message.h"
-#include "tools/input/sha256.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/plan.h"
@@ -67,7 +67,7 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
   return lines;
 }
 
-/// The suite's own detector and those of `--beside`. \throws std::invalid_argument for duplicates.
+/// The suite's own detector and the `--beside` ones. \throws std::invalid_argument for duplicates.
 std::set<std::string> names_of_all(const SuiteRequest& request, const std::string& own) {
   std::set<std::string> names{own};
   for (const std::string& name : request.beside) {
@@ -87,8 +87,8 @@ std::vector<scenario::Criterion> criteria_of(const std::vector<suite::PlannedSce
   return all;
 }
 
-/// Records the files of detections of all runs, also those of other parts, so that parts of other
-/// detections are known apart.
+/// Records the files of detections of all runs, including the runs of other parts. So parts that
+/// were made from other detections are recognised.
 /// \throws std::runtime_error that lists the missing files of the planned runs.
 void require_detections(const fs::path& folder, const SuitePlan& planned) {
   if (!fs::is_directory(folder)) {
@@ -140,7 +140,7 @@ suite::PartOf choose_part(const SuiteRequest& request, suite::Runs whole,
   return {.shard = shard, .whole = std::move(whole)};
 }
 
-/// Worlds are chosen before they are drawn, so that only those of this part are drawn.
+/// Worlds are chosen before they are drawn, so that only the worlds of this part are drawn.
 SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
                       const std::optional<suite::SuiteResult>& former, Caller& caller) {
   std::vector<worlds::Kept> chosen = chosen_worlds(request.worlds, request.filter);
@@ -360,13 +360,11 @@ std::vector<suite::SuiteResult> Making::run(const SuiteRequest& request, bench::
       planned_.plan,
       {.watchers = watchers(request, folder, detectors),
        .run_of =
-           [&](const suite::PlannedScenario& planned, std::uint64_t seed,
-               const suite::SuiteWatcher& watcher) {
+           [&](const auto& planned, std::uint64_t seed, const auto& watcher) {
              return arguments_of(run_of(request, planned, seed, watcher, recordings));
            },
        .child_of =
-           [&](const suite::PlannedScenario& planned, std::uint64_t seed,
-               std::span<const suite::SuiteWatcher> watchers) {
+           [&](const auto& planned, std::uint64_t seed, const auto& watchers) {
              return child_of(request, planned, seed, watchers, recordings);
            },
        .sets = request.sets,
@@ -382,8 +380,7 @@ std::vector<suite::SuiteResult> Making::run(const SuiteRequest& request, bench::
            },
        .on_result = [&] { folder.keep(); },
        .on_run =
-           [&](const suite::SuiteProgress& done, const std::string& scenario,
-               std::span<const suite::RunResult* const> runs) {
+           [&](const auto& done, const std::string& scenario, const auto& runs) {
              whole_ = done.done;
              total_ = done.total;
              watch_.finished(done, scenario, detectors, runs);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "scenes/worlds/worlds.h"
 #include "tools/files/output_file.h"
 #include "tools/files/provenance.h"
 #include "tools/report/report_page.h"
@@ -12,7 +13,6 @@
 #include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/junit.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 namespace fs = std::filesystem;

@@ -9,17 +9,18 @@
 #include <thread>
 
 #include "scenarios/load.h"
+#include "scenes/worlds/worlds.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/app/world.h"
+#include "tools/app/world_folder.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/output/frame_pictures.h"
+#include "tools/preview/sheet.h"
 #include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/pattern.h"
-#include "tools/worlds/sheet.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 namespace {
@@ -29,12 +30,12 @@ namespace fs = std::filesystem;
 constexpr const char* kFolder = "out/worlds";
 
 /// Pictures and truth of a run's sampled frames; absent if the run has no pictures.
-std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
+std::optional<preview::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
   if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
   const bench::FramePictures pictures(run / bench::kPicturesFile, image_px);
-  const auto shown = worlds::frames_shown(static_cast<int>(pictures.size()));
+  const auto shown = preview::frames_shown(static_cast<int>(pictures.size()));
   const auto objects = bench::read_object_truth(run, shown);
-  worlds::Shots shots;
+  preview::Shots shots;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     shots[i].frame = shown[i];
     shots[i].picture = pictures.at(static_cast<std::size_t>(shown[i]), shots[i].scale);
@@ -52,7 +53,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
   const auto shots = recorded_shots(
       folder / run.folder, {planned.scenario->camera.width_px, planned.scenario->camera.height_px});
   if (!shots) return;
-  const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
+  const fs::path plan = scenario.file.parent_path() / kPlanFile;
   cv::Mat3b above;
   try {
     above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
@@ -60,7 +61,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
     caller.warn({error.what()});
   }
   bench::write_file(folder / report::sheet_path(scenario),
-                    sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality));
+                    sim::encode_jpeg(preview::contact_sheet(*shots, above, kColumns), kQuality));
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::s
                    [](const auto& a, const auto& b) { return a.family < b.family; });
   std::vector<worlds::Kept> chosen;
   for (const worlds::Choice& one : choices) {
-    const fs::path file = worlds::kept_world(kFolder, one);
+    const fs::path file = kept_world(kFolder, one);
     if (wanted.is_in(file.stem().string())) chosen.push_back({one, file});
   }
   if (chosen.empty()) throw std::runtime_error("no world fits --filter; its names are as room_7");

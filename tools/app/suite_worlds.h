@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "scenes/worlds/worlds.h"
 #include "tools/app/caller.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 
@@ -26,7 +26,7 @@ struct WorldsChoice {
 ///   filter and if no world fits.
 std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::string& filter);
 
-/// The number of jobs; for 0 that of the processors.
+/// The number of jobs; for 0 the number of processors.
 std::size_t jobs_at_once(int jobs);
 
 /// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.

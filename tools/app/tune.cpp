@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/input/message.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
-#include "tools/input/message.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/evaluations.h"
 #include "tools/tune/record.h"

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "scenarios/input/sha256.h"
 #include "scenarios/shipped.h"
 #include "sim/simulation.h"
 #include "tools/app/commit.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::app {
 

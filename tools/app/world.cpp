@@ -1,10 +1,11 @@
 #include "tools/app/world.h"
+#include "tools/app/world_folder.h"
 
+#include "scenes/worlds/textures.h"
 #include "tools/files/output.h"
 #include "tools/files/output_file.h"
+#include "tools/preview/sheet.h"
 #include "tools/sequence/png.h"
-#include "tools/worlds/sheet.h"
-#include "tools/worlds/textures.h"
 
 namespace lcs::app {
 
@@ -15,13 +16,13 @@ WorldMade world(const WorldRequest& request, Caller& caller) {
   const std::filesystem::path target =
       request.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
                           : std::filesystem::path(request.out);
-  bench::Output folder(target, worlds::world_files());
-  worlds::write_world(drawn, folder.staging());
+  bench::Output folder(target, world_files());
+  write_world(drawn, folder.staging());
   if (request.sheet) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
     const cv::Mat3b sheet =
-        worlds::contact_sheet(worlds::simulated_shots(scenario), worlds::plan(drawn), 2);
-    bench::write_file(folder.staging() / worlds::kSheetFile,
+        preview::contact_sheet(preview::simulated_shots(scenario), preview::plan(drawn), 2);
+    bench::write_file(folder.staging() / kSheetFile,
                       sequence::encode_png(sheet, sequence::PngFilter::sub));
   }
   caller.check();

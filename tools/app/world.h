@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "scenes/worlds/worlds.h"
 #include "tools/app/caller.h"
 #include "tools/app/option.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::app {
 

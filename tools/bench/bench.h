@@ -30,7 +30,7 @@ class CornerFinder {
       : fast_(scenario.fast_threshold),
         is_by_events_(scenario.corner_source == scenario::CornerSource::events) {}
 
-  /// \param events since the frame before; not read if corners are those of pictures.
+  /// \param events since the frame before; not read if corners come from pictures.
   /// \return in pixels of the picture.
   std::vector<Eigen::Vector2f> find(const cv::Mat1b& grey, std::span<const sim::Event> events);
 

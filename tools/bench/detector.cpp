@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/input/spelling.h"
+#include "scenarios/input/spelling.h"
 
 namespace lcs::bench {
 

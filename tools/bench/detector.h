@@ -13,7 +13,7 @@
 #include "filter/detect/gap_picture.h"
 #include "filter/paper/any_filter.h"
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {
@@ -68,7 +68,7 @@ class Detector {
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
 /// Gaps that an earlier run has looked at. A gap that the run did not ask for gets the answer of
-/// the one with which it shares the most.
+/// the gap that overlaps it most.
 class StoredGaps : public GapView {
  public:
   void show(const std::vector<GapSeen>& gaps) { gaps_ = &gaps; }

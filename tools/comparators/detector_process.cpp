@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 #include "tools/process/child.h"
 
 namespace lcs::comparators {

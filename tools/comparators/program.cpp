@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scenarios/input/message.h"
 #include "tools/files/json_node.h"
-#include "tools/input/message.h"
 #include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
@@ -124,7 +124,7 @@ void ProgramDetector::read_answer(const std::string& line, bench::FrameRecord& f
   const Json answer = parsed(line);
   const auto index = answer.find(kIndex);
   if (index == answer.end()) {
-    throw DetectorError("its answer has no \"index\"; give that of the frame that it answers");
+    throw DetectorError("its answer has no \"index\"; give the index of the answered frame");
   }
   if (*index != frame.index) {
     throw DetectorError(

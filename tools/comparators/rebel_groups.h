@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "filter/frame_result.h"
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
 #include "filter/squares/convex_hull.h"
+#include "filter/types/frame_result.h"
 
 namespace lcs::comparators {
 

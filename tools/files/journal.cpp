@@ -9,11 +9,11 @@
 #include <limits>
 #include <utility>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/message.h"
+#include "scenarios/input/sha256.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
-#include "tools/input/input_file.h"
-#include "tools/input/message.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -111,7 +111,7 @@ Journal::Journal(fs::path file, std::string_view sign, const Provenance& provena
     head_ = reader.head();
     size_ = reader.size();
   } else if (!head_.starts_with(beginning(path_, head_.size() + 1))) {
-    reader.refuse(0, "the head of the journal is cut off");  // and was that of other work
+    reader.refuse(0, "the head of the journal is cut off");  // or belongs to other work
   }
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC,
                  0666);

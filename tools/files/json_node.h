@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/input/input_file.h"
-#include "tools/input/message.h"
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/message.h"
 
 namespace lcs::bench {
 

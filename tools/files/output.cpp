@@ -16,10 +16,10 @@
 #include <system_error>
 #include <utility>
 
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/message.h"
+#include "scenarios/input/sha256.h"
 #include "tools/files/written.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/message.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -91,7 +91,7 @@ bool is_of_result(const fs::path& within, const fs::directory_entry& entry,
 }
 
 /// Whether an entry of a staging folder is this program's. The staging folder of a suite contains
-/// those of its runs: `in/runs/NAME/seed-1.partial-PROCESS/in/metrics.json`.
+/// its runs' folders: `in/runs/NAME/seed-1.partial-PROCESS/in/metrics.json`.
 bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
                    const ResultNames& names) {
   fs::path of_result;

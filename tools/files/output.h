@@ -56,7 +56,7 @@ void remove_abandoned(const std::filesystem::path& target, const ResultNames& na
 
 /// The absolute path of an output; links in the folders above it are resolved.
 /// \throws OutputError for a link, and for a path that is, contains or lies in an input of this
-///   process (tools/input/inputs_read.h). Call it after all inputs are read.
+///   process (scenarios/input/inputs_read.h). Call it after all inputs are read.
 std::filesystem::path output_path(const std::filesystem::path& named);
 
 enum class Overwrite {

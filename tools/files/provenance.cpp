@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/message.h"
+#include "scenarios/input/sha256.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/message.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRead = "read";
-/// Entries beside those of a provenance, which determine no byte of a result.
+/// Entries beside a provenance's own; they determine no byte of a result.
 constexpr std::array<std::string_view, 4> kCircumstances{"command", "started", "wall_s", "cpu_s"};
 
 /// A fact's value in a message.

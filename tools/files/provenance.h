@@ -35,8 +35,8 @@ struct Provenance {
   void add_read(const Provenance& of_unit, const std::string& unit);
 };
 
-/// With the files that this process has read so far (tools/input/inputs_read.h), without those of
-/// the outputs that it writes. \param base absolute folder of the paths; "": the working folder.
+/// With the files that this process has read so far (scenarios/input/inputs_read.h), without the
+/// outputs that it writes. \param base absolute folder of the paths; "": the working folder.
 Provenance provenance_of(Provenance::Json facts, const std::filesystem::path& base = {});
 
 /// The file with the provenance in a folder of results (tools/app/how_made.h).

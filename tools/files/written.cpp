@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/input/error.h"
+#include "scenarios/input/sha256.h"
 #include "tools/files/output_file.h"
-#include "tools/input/error.h"
-#include "tools/input/sha256.h"
 
 namespace lcs::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "sim/truth/truth.h"
 
 namespace lcs::kinematics {
@@ -42,7 +42,7 @@ inline constexpr std::array kDepths = {DepthSource::reference, DepthSource::lear
 std::string_view name(RotationModel rotation);
 std::string_view name(DepthSource depth);
 
-/// A static point, seen in frame k-1 and again in frame k. Pixels and frames are those of
+/// A static point, seen in frame k-1 and again in frame k. Pixels and frames are as in
 /// `filter/kinematics/camera.h`.
 struct Landmark {
   Vec2 before_px = Vec2::Zero();  ///< in frame k-1
@@ -131,7 +131,7 @@ double ratio_from(const sim::Pinhole& camera, const MotionField& field, const Ve
 ///
 /// Each has learnt its depth from the parallax of up to `kLearningSteps` equal previous steps
 /// without rotation, with corners rounded to whole pixels like FAST's. A point that was outside the
-/// image before has the ratio 1, that of Z_ref.
+/// image before has the ratio 1: its depth is Z_ref.
 std::vector<Landmark> landmarks(const PointSet& points, const sim::Pose& T_CN,
                                 const FieldParameters& field);
 

@@ -201,7 +201,7 @@ struct LeftOut {
   double readout_s = 0;      ///< the scenario's, or else `kReadout_s`
   double readout_px = 0;     ///< of the last row, which is seen that much later than the first
   double offset_s = 0;       ///< of the clocks, as told to the filter, or else `kOffset_s`
-  double offset_px = 0;      ///< of the motion from frame to frame: it is that of another interval
+  double offset_px = 0;      ///< of the motion from frame to frame, over the shifted interval
   /// \name By the first-order motion field, in place of the exact motion.
   ///@{
   double expected_readout_px = 0;

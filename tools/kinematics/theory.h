@@ -42,9 +42,9 @@ double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px,
 /// Errors of the strapdown integration of an IMU that is at rest, or drives straight on, after
 /// `t_s`: variances, each of one axis, of attitude (rad^2) and velocity ((m/s)^2).
 ///
-/// With noise n, random walk b and turn-on bias b0 of the gyro, attitude phi' = n + b + b0; that of
-/// the accelerometer likewise, and tilt turns gravity g into the horizontal: v' = n_a + b_a + g
-/// phi.
+/// With noise n, random walk b and turn-on bias b0 of the gyro, attitude phi' = n + b + b0. The
+/// accelerometer has errors of the same form, and tilt turns gravity g into the horizontal:
+/// v' = n_a + b_a + g phi.
 struct Drift {
   double attitude_rad2 = 0;             ///< s_g^2 t + s_bg^2 t^3/3 + b0^2 t^2
   double velocity_horizontal_mps2 = 0;  ///< the vertical one + g^2 (s_g^2 t^3/3 + s_bg^2 t^5/20 +

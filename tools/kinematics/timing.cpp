@@ -44,7 +44,7 @@ void add_ways(const PointSet& points, const Motion& motion, double dt_s, std::ve
   }
 }
 
-/// A distorted picture's points, taken for those of the pinhole.
+/// A distorted picture's points, taken for points of the pinhole's picture.
 void add_distorted(const PointSet& points, const sim::Optics& optics, const sim::Pose& T_CN,
                    std::vector<double>& errors) {
   const sim::Pose T_NC = T_CN.inverse();

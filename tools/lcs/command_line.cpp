@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "scenarios/input/spelling.h"
 #include "tools/app/version.h"
-#include "tools/input/spelling.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {

@@ -2,8 +2,8 @@
 /// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #include <fmt/format.h>
 
+#include "scenarios/input/message.h"
 #include "tools/app/compare.h"
-#include "tools/input/message.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
 

@@ -24,7 +24,7 @@ Each frame is checked before it is written: flow against depth and poses, boxes 
 against poses, times. The size is told before the first frame is made, to a factor of two; a disk with
 less room is refused. A sequence that fails at its start leaves nothing. The folder's README.md says every unit, frame and axis; manifest.json has the
 hash of every file. A run that was stopped goes on where it was when it is given again, and
-the bytes are those of a run that never stopped. A folder that holds anything else is refused.
+the bytes are the same as of a run that never stopped. A folder that holds anything else is refused.
 With --shard i/n and one scenario only the i-th part of the frames is made; when all parts are there, the
 command without it puts the sequence together.
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "scenarios/input/message.h"
 #include "tools/files/output_file.h"
-#include "tools/input/message.h"
 #include "tools/lcs/command_line.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"

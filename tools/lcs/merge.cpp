@@ -22,7 +22,7 @@ constexpr const char* kMergeHelp = R"(Examples:
 The merged suite has the files of a suite that was made in one go: figures, report, JUnit, tables. The parts
 do not change. On one file system their runs are linked, not copied.
 
-Exit codes: those of lcs suite. 2 also if a part is missing or belongs to another suite.
+Exit codes: as of lcs suite. 2 also if a part is missing or belongs to another suite.
 )";
 
 ExitCode merge(const MergeOptions& options) {

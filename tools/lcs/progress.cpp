@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {

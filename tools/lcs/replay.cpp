@@ -40,7 +40,7 @@ This makes a scenario whose frames are recorded, and runs it: each option up to 
 present twice are left out, data out of order are sorted, and all of it is counted and reported. Time
 passes over a picture that is left out.
 
-Files are those of `lcs run`. Without a truth, figures that need one are null in metrics.json. A sequence of
+Writes the files of `lcs run`. Without a truth, figures that need one are null in metrics.json. A sequence of
 lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its run.
 )";
 

@@ -2,8 +2,8 @@
 /// `lcs score`: computes a run's figures from its files, for its own or another detector.
 #include <fmt/format.h>
 
+#include "scenarios/input/message.h"
 #include "tools/app/score.h"
-#include "tools/input/message.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
 #include "tools/output/table.h"

@@ -44,7 +44,7 @@ constexpr const char* kSuiteHelp = R"(Examples:
   lcs compare out/before out/suite                the differences of two suites, beyond noise
 
 Worlds are kept in out/worlds/ and drawn anew only where the generator changed. A kept world that was edited is
-refused. Those of the split `test` are for stating figures: nothing is chosen by them (tools/worlds/README.md).
+refused. Worlds of the split `test` are for stating figures: nothing is chosen by them (scenes/worlds/README.md).
 
 Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
 crashes, or a scenario that is broken, is an error, and the others still run.

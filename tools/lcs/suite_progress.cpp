@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/scoring/metrics.h"
 #include "tools/suite/summary.h"

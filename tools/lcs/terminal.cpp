@@ -13,10 +13,10 @@
 #include <iostream>
 #include <mutex>
 
+#include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
-#include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
 

@@ -35,7 +35,7 @@ journal; remove it then, or name another folder.
 
 Files in the folder:
   evaluations.csv    the journal: every set that was tried, with its figures
-  learnt.h           the best of them, for filter/learnt.h: the preset default takes them from there
+  learnt.h           the best of them, for filter/types/learnt.h: the preset default takes them from there
   record.md          the suites before and after, the numbers, the command, the program
 
 Exit codes:

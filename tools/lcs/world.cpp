@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scenes/worlds/worlds.h"
 #include "tools/app/world.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 namespace {
@@ -19,8 +19,8 @@ constexpr const char* kWorldHelp = R"(Examples:
   lcs world street --pictures ~/photos           surfaces from a folder of pictures
   lcs suite --worlds test --count 60             many of them at once
 
-The same seed gives the same bytes. Seeds 1 to 999999 are of the split `train`, those of the next million
-`validate`, and of the one after that `test`, by which nothing is chosen (tools/worlds/README.md).
+The same seed gives the same bytes. Seeds 1 to 999999 are of the split `train`, the next million of
+`validate`, and the million after of `test`, by which nothing is chosen (scenes/worlds/README.md).
 
 Files written to the folder, all or none:
   FAMILY_SEED.yaml   the scenario, with a summary in its first lines

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/output_file.h"
-#include "tools/input/input_file.h"
 
 namespace lcs::bench {
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <string>
 
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 
 namespace lcs::bench {
 

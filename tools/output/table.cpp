@@ -51,7 +51,7 @@ std::string scores(const Metrics& metrics) {
   }
   if (value(metrics, "rebel.f1_lost_radial").value_or(0) > kMuch) {
     text += remark(
-        "radial: along the line of sight, where an image moves as that of a static point may "
+        "radial: along the line of sight, where an image moves as a static point's image may "
         "(filter/MODEL.md#limits)");
   }
   text += line("objects", metrics, true,

@@ -71,7 +71,7 @@ class PreviewPage : public report::TextPage {
     const cv::Size shown_px = preview_.looks.front().image_px;
     const bool is_smaller = shown_px.width < scenario.camera.width_px;
     add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.{}</p>\n",
-        is_smaller ? fmt::format(" Pictures and corners are those of {} x {} pixels.",
+        is_smaller ? fmt::format(" Pictures and corners are made at {} x {} pixels.",
                                  shown_px.width, shown_px.height)
                    : "");
     corners();
@@ -319,7 +319,7 @@ class PreviewPage : public report::TextPage {
     name_ways(w, size_px);
     add("</svg></div>\n<p class=\"small quiet\">Ways with their times; outlines at the start, and "
         "dashed at the end; what the camera sees to 3 m off at first, in the middle and at last. "
-        "Grey: what stands (names on pointing). World x is to the right, y up, in m.</p>\n");
+        "Grey: static objects (names on pointing). World x is to the right, y up, in m.</p>\n");
   }
 
   void movers() {

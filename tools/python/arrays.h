@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "filter/signature.h"
+#include "filter/types/signature.h"
 #include "tools/recording/recording_fields.h"
 
 namespace lcs::python {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "scenarios/input/inputs_read.h"
 #include "scenarios/shipped.h"
 #include "tools/app/compare.h"
 #include "tools/app/generate.h"
@@ -19,7 +20,6 @@
 #include "tools/app/suite.h"
 #include "tools/app/tune.h"
 #include "tools/app/world.h"
-#include "tools/input/inputs_read.h"
 #include "tools/python/guard.h"
 #include "tools/python/keywords.h"
 #include "tools/python/scenario.h"
@@ -152,7 +152,7 @@ void add_runs(const suite::SuiteResult& suite, const fs::path& folder, py::list&
 void add_means(const suite::SuiteResult& suite, py::list& rows) {
   const bool of_worlds = suite::is_of_worlds(suite);
   for (const std::string& group : suite::groups_of(suite)) {
-    for (const std::string_view metric : suite::tabled_metrics()) {
+    for (const std::string_view metric : bench::keys_in(bench::Table::suite)) {
       const std::vector<double> figures = suite::figures_of_group(suite, group, metric);
       if (figures.empty()) continue;
       const suite::Interval mean = suite::interval_of(figures);
@@ -303,7 +303,7 @@ void bind_worlds(py::module_& module) {
                         "movers"_a = made.world.scenario.actors.size(),
                         "drawn_again"_a = made.world.attempt, "features"_a = made.world.features);
       },
-      R"(Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).
+      R"(Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
 
 out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for surfaces.
 Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.
@@ -332,7 +332,7 @@ void bind_runs(py::module_& module) {
       },
       R"(Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
-beside: "DETECTOR=FOLDER" each. The others are as those of suite.
+beside: "DETECTOR=FOLDER" each. The other arguments are as in suite.
 Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.)");
   module.def(
       "_score_files",

@@ -29,7 +29,7 @@ PictureFilter of_scenario(const Scenario& scenario) {
   return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
 }
 
-/// A filter with this camera, preset and settings, validated as those of a scenario.
+/// A filter with this camera, preset and settings, validated like a scenario's.
 PictureFilter of_camera(const Camera& camera, const std::string& preset, const Settings& set) {
   scenario::Scenario settings;
   settings.filter_preset = preset;
@@ -135,7 +135,7 @@ void bind_result(py::module_& module) {
           },
           "Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, "
           "corner (index of\n"
-          "its corner, -1: none), circle (index of its circle among those of its kind, -1: none), "
+          "its corner, -1: none), circle (index among the circles of its kind, -1: none), "
           "...")
       .def_property_readonly(
           "circles",

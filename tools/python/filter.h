@@ -4,7 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "filter/frame_result.h"
+#include "filter/types/frame_result.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::python {

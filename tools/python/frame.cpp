@@ -82,7 +82,7 @@ void bind_motion(py::module_& module) {
            py::arg("velocity_sigma") = 0.0,
            "dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its "
            "frame of now;\n"
-           "angular_velocity 3, rad/s, that of the rotation where not given; up and height: the "
+           "angular_velocity 3, rad/s, from the rotation where not given; up and height: the "
            "ground, see\n"
            "there; unseen_turn in rad, velocity_sigma in m/s.")
       .def_static("between", &motion_between, py::arg("T_WC_before"), py::arg("T_WC_now"),
@@ -92,7 +92,7 @@ void bind_motion(py::module_& module) {
           "Time since the last frame, s; 0 in the first one.")
       .def_property_readonly(
           "rotation", [](const EgoMotion& m) { return copy(m.R_cur_prev); },
-          "3 x 3 float64: takes camera coordinates of the last frame to those of this one.")
+          "3 x 3 float64: takes camera coordinates from the last frame to this one.")
       .def_property_readonly(
           "velocity", [](const EgoMotion& m) { return copy(m.v_C_mps); },
           "3 float64, m/s: mean velocity of the camera since the last frame, in its frame of now.")
@@ -219,7 +219,7 @@ void bind_seen(py::module_& module) {
       module, "Frame",
       "The data of the sensors, and apart from them the truth. Arrays are read-only and keep their "
       "values\n"
-      "when the simulation continues; those of pictures are views.")
+      "when the simulation continues; arrays of pictures are views.")
       .def_property_readonly(
           "index", [](const Frame& f) { return f.seen.record.index; }, "From 0.")
       .def_property_readonly(

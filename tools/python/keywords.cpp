@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <map>
 
-#include "tools/input/reader.h"
-#include "tools/input/spelling.h"
+#include "scenarios/input/reader.h"
+#include "scenarios/input/spelling.h"
 #include "tools/python/scenario.h"
 
 namespace lcs::python {

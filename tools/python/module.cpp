@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 #include "tools/python/bench.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
@@ -68,7 +68,8 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = LCS_VERSION;
   python::add_enumeration(module, "Verdict", "The verdict on a corner.", lcs::bench::kVerdicts);
   python::add_enumeration(
-      module, "Reason", "Which of the filter's rules settled a corner's verdict (filter/reason.h).",
+      module, "Reason",
+      "Which of the filter's rules settled a corner's verdict (filter/types/reason.h).",
       lcs::bench::kReasonWords);
   python::add_enumeration(module, "Label", "The truth of a corner (tools/scoring/SCORING.md).",
                           lcs::bench::kLabels);

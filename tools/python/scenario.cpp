@@ -6,10 +6,10 @@
 
 #include <optional>
 
+#include "scenarios/input/reader.h"
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/detector.h"
-#include "tools/input/reader.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
 #include "tools/python/typed.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 
 namespace lcs::python {
 

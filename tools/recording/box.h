@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "filter/layers.h"
+#include "filter/types/layers.h"
 #include "sim/truth/truth.h"
 #include "tools/recording/labels.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 
 namespace lcs::bench {
 

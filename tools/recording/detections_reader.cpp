@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/message.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
-#include "tools/input/message.h"
 #include "tools/recording/detections.h"
 
 namespace lcs::bench {

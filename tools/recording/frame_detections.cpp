@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "scenarios/input/message.h"
 #include "tools/files/csv.h"
-#include "tools/input/message.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 
@@ -218,7 +218,7 @@ void FrameDetections::add_mask(std::span<const std::string_view> values) {
   if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
   const auto side = [&](std::size_t i, const char* what) {
     const std::optional<int> px = number_in<int>(values[i]);
-    if (!px || *px < 1) refuse("{} is '{}'; give that of the picture", what, values[i]);
+    if (!px || *px < 1) refuse("{} is '{}'; give the picture's size", what, values[i]);
     return *px;
   };
   const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
@@ -274,7 +274,7 @@ void FrameDetections::add_square(const Square& square) {
   }
   std::vector<Square>& squares = frame_->layers.squares;
   if (squares.size() == kMostBoxes) {
-    refuse("there are more than {} boxes in the frame; give those of objects", kMostBoxes);
+    refuse("there are more than {} boxes in the frame; give objects' boxes", kMostBoxes);
   }
   if (!boxes_.insert(square.id).second) {
     refuse("the frame has a box {} already; an id is one object's", square.id);
@@ -296,7 +296,7 @@ void FrameDetections::add_circle(const Vec2& location, double radius) {
   require_in_picture("circle", widened({location, location}, radius), 1);
   std::vector<Circle>& circles = frame_->layers.rebel_circles;
   if (circles.size() == kMostCircles) {
-    refuse("there are more than {} circles in the frame; give those of objects", kMostCircles);
+    refuse("there are more than {} circles in the frame; give objects' circles", kMostCircles);
   }
   Circle circle;
   circle.id = static_cast<Id>(circles.size());

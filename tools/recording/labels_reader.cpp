@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/message.h"
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
-#include "tools/input/input_file.h"
-#include "tools/input/message.h"
 #include "tools/recording/labels.h"
 
 namespace lcs::bench {
@@ -229,7 +229,7 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
         ids.add(std::to_string(image), id);
         labels.pictures[*found->second].boxes.push_back(box);
       } catch (const std::invalid_argument& error) {
-        annotation["bbox"].require(false, fmt::format("that of a mover: {}", error.what()));
+        annotation["bbox"].require(false, fmt::format("a mover's box: {}", error.what()));
       }
     });
     return labels;

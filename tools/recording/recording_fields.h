@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "filter/kinematics/ego_motion.h"
-#include "filter/layers.h"
-#include "filter/reason.h"
+#include "filter/types/layers.h"
+#include "filter/types/reason.h"
 #include "sim/truth/truth.h"
 #include "tools/recording/recording.h"
 

@@ -13,10 +13,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/message.h"
 #include "tools/files/json_node.h"
-#include "tools/input/input_file.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/message.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
@@ -339,7 +339,7 @@ void read_layers(Json json, FrameRecord& frame) {
 void read_truth(Json json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
-  if (index != frame.index) throw std::runtime_error("index is not that of the layers");
+  if (index != frame.index) throw std::runtime_error("index differs from the layers' index");
   frame.true_motion = read_motion(json, "true_motion");
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
   frame.object_truth = read_objects(json);

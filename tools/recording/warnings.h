@@ -1,5 +1,5 @@
 /// \file
-/// Warnings reported with the metrics of a run: those of the simulation (`sim/world/warnings.h`),
+/// Warnings reported with the metrics of a run: from the simulation (`sim/world/warnings.h`),
 /// images with too few corners, and in recordings an implausible motion (`motion_warnings.h`).
 #pragma once
 

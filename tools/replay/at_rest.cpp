@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/rotation.h"
+#include "sim/base/rotation.h"
 
 namespace lcs::replay {
 namespace {

@@ -10,10 +10,10 @@
 #include <set>
 #include <system_error>
 
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
 #include "tools/files/json_node.h"
-#include "tools/input/input_file.h"
-#include "tools/input/message.h"
 #include "tools/process/python.h"
 #include "tools/replay/recorded.h"
 
@@ -78,7 +78,7 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   if (topics.image.empty()) {
     run_reader(arguments, STDOUT_FILENO, asked.source);
     throw input::Error(asked.source,
-                       "{} is a bag with the topics above; name that of its pictures "
+                       "{} is a bag with the topics above; name the topic of its pictures "
                        "(topics.image, or --image-topic), and of an IMU or poses",
                        asked.path.string());
   }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/input/input_file.h"
-#include "tools/input/reader.h"
+#include "scenarios/input/input_file.h"
+#include "scenarios/input/reader.h"
 #include "tools/replay/poses_file.h"
 
 namespace lcs::replay {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

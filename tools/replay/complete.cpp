@@ -8,7 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "sim/rotation.h"
+#include "scenes/worlds/worlds.h"
+#include "sim/base/rotation.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
@@ -18,7 +19,6 @@
 #include "tools/replay/sensor_csv.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::replay {
 namespace {
@@ -114,13 +114,13 @@ std::optional<sim::Pose> camera_on_body(const scenario::Recorded& asked) {
   return read_calibration(*asked.calibration, asked.camera).T_BS;
 }
 
-/// Turns poses of the body into those of the camera.
+/// Turns poses of the body into poses of the camera.
 void join_camera(const scenario::Recorded& asked, PosesFile& file, const Recorded& recorded) {
   std::optional<sim::Pose> T_BC = camera_on_body(asked);
   if (!T_BC) T_BC = recorded.T_BC;
   if (!T_BC) {
     throw input::Error({asked.poses->string(), 0},
-                       "its poses are those of the body (p_RS_R_x); give the camera's place on it, "
+                       "its poses are the body's (p_RS_R_x); give the camera's place on it, "
                        "by a calibration with T_BS or T_cam_imu, or by mount");
   }
   for (auto& line : file.lines) {
@@ -153,8 +153,8 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs:
   const std::string file = path.string();
   if (up.z() < -kUpright) {
     throw input::Error({file, 0},
-                       "its accelerations point down, along -z, and those of an accelerometer at "
-                       "rest point up; change their sign, or turn the axes so that z is up");
+                       "its accelerations point down, along -z, and at rest they must point up; "
+                       "change their sign, or turn the axes so that z is up");
   }
   throw input::Error({file, 0},
                      "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, "
@@ -201,8 +201,8 @@ void require_lens(const Lens& lens) {
                        is_within(lens.cv_px, -kMostCentre_px, kMostCentre_px);
   if (is_lens) return;
   throw input::Error(lens.source,
-                     "a focal length of {}, {} px and a principal point at {}, {} px are those of "
-                     "no camera; correct the calibration, or give focal",
+                     "a focal length of {}, {} px and a principal point at {}, {} px fit no "
+                     "camera; correct the calibration, or give focal",
                      lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px);
 }
 
@@ -291,7 +291,7 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   if (!times_known) {
     sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
   }
-  // KITTI's world frame is that of the first camera.
+  // KITTI's world frame is the first camera frame.
   const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
   move_along(std::move(poses), level, asked, *asked.poses, kOutsideOfPoses, recorded);
 }
@@ -360,7 +360,7 @@ void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded) {
   const auto noise = read_calibration(*asked.imu_calibration).noise;
   if (!noise) {
     throw input::Error({asked.imu_calibration->string(), 0},
-                       "holds no noise densities; give those of Kalibr's imu.yaml");
+                       "holds no noise densities; give a file with them, as Kalibr's imu.yaml");
   }
   recorded.settings.imu.noise = *noise;
 }

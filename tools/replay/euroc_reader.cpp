@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim/rotation.h"
+#include "sim/base/rotation.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
@@ -198,7 +198,7 @@ void move_as_run(const fs::path& mav, const std::string& camera,
 }
 
 /// The camera of a generated rig by its folder or its name in the scenario; if none is asked for,
-/// that of the run. Puts its lens and pose into the settings. \return its folder.
+/// the run's camera. Puts its lens and pose into the settings. \return its folder.
 std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySettings& exact) {
   std::string names;
   for (std::size_t place = 0; place < exact.cameras.size(); ++place) {
@@ -241,8 +241,8 @@ void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>&
   }
   if ((start.T_WS.R * force_S).z() >= 0) return;
   throw input::Error({file.string(), 0},
-                     "by the attitude of the truth its accelerations point down, and those of an "
-                     "accelerometer at rest point up; change their sign");
+                     "by the attitude of the truth its accelerations point down, and at rest they "
+                     "must point up; change their sign");
 }
 
 /// Sets the motion from EuRoC's own files. The body frame is B.
@@ -275,7 +275,7 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   if (imu.noise) recorded.settings.imu.noise = *imu.noise;
   take_imu_noise(asked, recorded);
   sim::Calibration calibration;
-  calibration.T_BS = imu.T_BS.value_or(sim::Pose{});  // the body frame is that of the IMU
+  calibration.T_BS = imu.T_BS.value_or(sim::Pose{});  // the body frame is the IMU's frame
   calibration.T_BC = T_BC;
   calibration.gravity_mps2 = kGravity_mps2;
   // The truth is of the body; it may begin after the first picture.

@@ -4,8 +4,8 @@
 
 #include <sstream>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 #include "tools/replay/poses_file.h"
 
 namespace lcs::replay {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 #include "tools/replay/kitti_calibration.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
@@ -148,7 +148,7 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   fs::path clock = camera_folder / "timestamps.txt";
   if (!fs::exists(clock)) {
     clock = asked.path / "oxts" / "timestamps.txt";
-    recorded.tally.add("cameras have no times of their own: those of the navigation are used",
+    recorded.tally.add("cameras have no times of their own: the times of the navigation are used",
                        name);
   }
   take_frames(clock, camera_folder / "data", recorded);

@@ -10,7 +10,7 @@
 #include "filter/ego_motion/estimator.h"
 #include "filter/ego_motion/intake.h"
 #include "scenarios/scenario.h"
-#include "sim/rotation.h"
+#include "sim/base/rotation.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "tools/input/error.h"
+#include "scenarios/input/error.h"
 #include "tools/replay/times.h"
 
 namespace lcs::replay {
@@ -61,7 +61,7 @@ Name name_of(const fs::path& file) {
     name.digits += stem.substr(at, end - at);
     while (at + 1 < end && stem[at] == '0') ++at;
     Number number{stem.substr(at, end - at), ""};
-    // One point is that of a fraction; several, as in 2024.05.01, are not.
+    // One point begins a fraction; several points, as in 2024.05.01, do not.
     const std::size_t end_of_fraction =
         end < stem.size() && stem[end] == '.' ? end_of_digits(end + 1) : 0;
     const bool is_next_point = end_of_fraction < stem.size() && stem[end_of_fraction] == '.';

@@ -6,10 +6,10 @@
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
+#include "scenarios/input/input_file.h"
 #include "sim/pictures/media.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 #include "tools/output/video.h"
 #include "tools/replay/picture_names.h"
 #include "tools/replay/recorded.h"
@@ -98,7 +98,7 @@ Recorded read_pictures(const scenario::Recorded& asked, bool) {
   if (asked.times) {  // perhaps it names the pictures, whose order is then of no matter
     take_unordered(asked.path, recorded);
   } else {
-    // With fps the unit is that of a table beside the pictures.
+    // With fps the unit belongs to a table beside the pictures.
     take_pictures(asked.path, asked.fps ? "" : asked.time_unit, recorded);
   }
   return recorded;

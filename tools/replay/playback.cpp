@@ -5,9 +5,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "scenarios/input/message.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/message.h"
 #include "tools/output/video.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -105,7 +105,7 @@ void Playback::look_at_first_picture() {
   if (lens.width_px > 0 && size_px != cv::Size(lens.width_px, lens.height_px)) {
     throw input::Error(lens.source,
                        "the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
-                       "that of these pictures, or focal",
+                       "the calibration of these pictures, or focal",
                        lens.width_px, lens.height_px, size_px.width, size_px.height);
   }
   // A calibration that states no size has its principal point near the middle of its pictures.

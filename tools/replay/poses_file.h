@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/pose.h"
+#include "sim/base/pose.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -24,7 +24,7 @@ struct PosesFile {
   std::vector<std::optional<Line>> lines;
   bool timed = false;
   bool numbered = false;  ///< each line states its picture (KITTI-360)
-  bool of_body = false;  ///< EuRoC's columns p_RS_R_x ...: poses of the body, not of the camera
+  bool of_body = false;   ///< EuRoC's columns p_RS_R_x ...: poses of the body, not of the camera
 };
 
 /// Lines of 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (rows of a matrix; KITTI), 17 (the
@@ -39,8 +39,7 @@ std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R);
 
 /// Up (against gravity) in the poses' world frame, from the given mounting of the camera on a
 /// vehicle that is upright at the first pose. \param otherwise result without a given mounting.
-std::optional<Vector3d> up_of_world(const scenario::Recorded& asked,
-                                           const sim::Pose& T_WC_first,
-                                           const std::optional<Vector3d>& otherwise);
+std::optional<Vector3d> up_of_world(const scenario::Recorded& asked, const sim::Pose& T_WC_first,
+                                    const std::optional<Vector3d>& otherwise);
 
 }  // namespace lcs::replay

@@ -73,7 +73,7 @@ KINDS = {
               "geometry_msgs/msg/TransformStamped", "nav_msgs/msg/Odometry", *TF),
     "odometry": ("nav_msgs/msg/Odometry",),
 }  # fmt: skip
-# Encoding: channels, those of red, green and blue (or of grey), bytes of a channel.
+# Encoding: number of channels, indices of red, green and blue (or grey), bytes of a channel.
 ENCODINGS = {
     "mono8": (1, [0], 1), "8UC1": (1, [0], 1), "mono16": (1, [0], 2), "16UC1": (1, [0], 2),
     "rgb8": (3, [0, 1, 2], 1), "bgr8": (3, [2, 1, 0], 1), "8UC3": (3, [2, 1, 0], 1),
@@ -182,7 +182,7 @@ class Bag:
                     yield wanted[c.topic, c.msgtype], t_ns, data
             except Refusal:
                 raise
-            except Exception as fault:  # of any kind: rosbags passes those of its libraries on
+            except Exception as fault:  # of any type: rosbags passes its libraries' exceptions on
                 self.tell(f"the bag is read up to a fault, and no further: {fault_of(fault)}")
 
     def _parser(self, type_: str) -> Callable[[bytes, str], Any]:
@@ -621,7 +621,7 @@ def main(words: list[str]) -> int:
         why = str(refusal)
     except OSError as fault:
         why = f"{fault}; give a bag that can be read, and a new folder with room as --out"
-    except Exception as fault:  # of any kind: rosbags passes those of its libraries on
+    except Exception as fault:  # of any type: rosbags passes its libraries' exceptions on
         why = (f"cannot be read ({type(fault).__name__}: {fault_of(fault)}); give a whole .bag, "
                ".db3, .mcap or folder of rosbag2 ('rosbag reindex', 'mcap recover' and "
                "'ros2 bag reindex' repair them)")  # fmt: skip

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/input/inputs_read.h"
+#include "scenarios/input/inputs_read.h"
 #include "tools/replay/picture_names.h"
 #include "tools/replay/times.h"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/camera/optics.h"
+#include "sim/base/optics.h"
 #include "sim/events/event.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/motion_source.h"
@@ -26,7 +26,7 @@ namespace lcs::replay {
 
 /// The properties that the pictures of a recording have in common.
 struct PictureFormat {
-  cv::Size size_px;             ///< empty: that of the first picture
+  cv::Size size_px;             ///< empty: the first picture's size
   int bits = 16;                ///< in use where a picture has 16
   std::optional<int> demosaic;  ///< OpenCV's colour conversion of raw pictures, with one channel
 };
@@ -171,7 +171,7 @@ Read read_euroc, read_kitti, read_kitti_odometry, read_robotcar, read_tum_rgbd, 
     read_mot, read_kitti_tracking, read_kitti_360, read_listed, read_bag, read_video, read_pictures;
 ///@}
 
-/// Sets the frames' times to those of the IMU's clock, by `asked.time_offset_s` or else the
+/// Moves the frames' times to the IMU's clock, by `asked.time_offset_s` or else the
 /// `timeshift_cam_imu` of `asked.calibration`.
 void take_time_offset(const scenario::Recorded& asked, Recorded& recorded);
 
@@ -211,7 +211,7 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what, 
 inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
 
 /// Sets the motion from `asked.poses`. \param times_known of the pictures.
-/// \throws input::Error for unreadable poses, and for those of a body without the camera's place.
+/// \throws input::Error for unreadable poses, and for a body's poses without the camera's place.
 void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded);
 
 /// Sets the motion from a layout's file of poses with their times. \param up_W of its world frame.
@@ -227,7 +227,7 @@ void move_along(std::vector<SensorReadings::CameraPose> poses, const std::option
                 const scenario::Recorded& asked, const fs::path& file, const char* outside,
                 Recorded& recorded);
 
-/// Sets the motion from readings of an IMU, whose axes are those of the vehicle, which starts
+/// Sets the motion from readings of an IMU. Its axes are the vehicle's axes, and the vehicle starts
 /// upright; or any, if `asked.calibration` states the camera's place on it.
 /// \param file of the readings, for messages.
 void move_by_readings(const scenario::Recorded& asked, const fs::path& file,

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 #include "tools/replay/calibration.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
@@ -95,8 +95,8 @@ bool is_rpg_events(const fs::path& folder) {
   return fs::exists(folder / kEvents) && fs::exists(folder / kPictureList);
 }
 
-/// The layout does not state where the camera is on the IMU. The motion is that of the IMU if
-/// `asked.calibration` states it, else that of the truth.
+/// The layout does not state where the camera is on the IMU. The motion comes from the IMU if
+/// `asked.calibration` states it, else from the truth.
 Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
   Recorded recorded;
   const auto picture = [&](const TextTable::Row& row) {

@@ -108,8 +108,8 @@ std::vector<std::string> words_in(const std::string& name) {
   return words;
 }
 
-/// 0 to 2 for x, y, z of the angular rates, 3 to 5 for those of the accelerations; absent for a
-/// column that is of neither.
+/// 0 to 2 for x, y, z of the angular rates, 3 to 5 for x, y, z of the accelerations; absent
+/// for a column that is of neither.
 std::optional<std::size_t> place_of(const std::string& name) {
   static const std::set<std::string> kRates{"gyro", "gyr", "gyroscope", "gyros", "omega",
                                             "w",    "g",   "angular",   "ang",   "rotation"};
@@ -250,8 +250,8 @@ void require_possible(const std::vector<sim::ImuSample>& samples, const fs::path
   }
   if (usual_mps2 < kLeast_mps2 || usual_mps2 > kMost_mps2) {
     refuse(fmt::format(
-        "accelerations have a size of {:.3g}, and those of an IMU have that of gravity, 9.81 "
-        "m/s^2; give what the accelerometer measures, gravity included, in m/s^2",
+        "accelerations have a size of {:.3g}, and an IMU at rest measures gravity, 9.81 "
+        "m/s^2; give the accelerometer's readings, gravity included, in m/s^2",
         usual_mps2));
   }
   const double tilt_rad = tilt_error_rad(samples, 1);

@@ -28,7 +28,7 @@ struct TableTimes {
   }
 };
 
-/// Columns are those of EuRoC, or have other usual names (ROS, Kalibr, loggers of phones), with
+/// Columns are as in EuRoC, or have other usual names (ROS, Kalibr, loggers of phones), with
 /// units in the header; without a header: time, angular rates in rad/s, accelerations in m/s^2.
 /// \throws input::Error if the file is unreadable, has no reading, or has readings that no IMU can
 /// have: rates in deg/s, accelerations in g or without gravity, the two interchanged.

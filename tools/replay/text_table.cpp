@@ -6,8 +6,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 
 namespace lcs::replay {
 namespace {

@@ -36,7 +36,7 @@ struct TextTable {
                                                     std::size_t count);
 
   std::optional<std::size_t> find(std::string_view name) const;
-  /// The column that the header calls a time: that of a ROS header's stamp, or the first one.
+  /// The column that the header calls a time: the stamp of a ROS header, or the first one.
   std::optional<std::size_t> time_column() const;
   /// Index of the column called `name`, or `otherwise` without a header.
   /// \throws input::Error if there is a header without it.

@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "scenarios/input/error.h"
 #include "tools/files/csv.h"
-#include "tools/input/error.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -188,7 +188,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
                            ? "correct one of the two"
                            : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name));
   };
-  // The user's unit may be that of another table: then this one's own fits.
+  // The user's unit may be meant for another table: then this table's own unit fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
   const auto by_user = time_unit_named(asked), by_header = time_unit_named(stated);
   for (const auto& unit_ns : {by_user, by_header, by_user ? layouts : std::nullopt}) {

@@ -50,8 +50,8 @@ struct ExpectedRate {
 inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
 inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
 
-/// The unit of the times in a column of a table, in ns: the first that gives the expected rate of
-/// `asked` (s, ms, us, ns), that of the header, and `layouts`; else the only one that gives it,
+/// The unit of the times in a column of a table, in ns: the first that gives the expected rate,
+/// of `asked` (s, ms, us, ns), the header's unit, and `layouts`; else the only one that gives it,
 /// which is told. \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
 std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
                           const ExpectedRate& expected, std::optional<std::int64_t> layouts,

@@ -314,7 +314,7 @@ function strip(event) {
 
 const FAMILIES = {
   rebels: ['Rebels', null],
-  circles: ['Circles with no mover under them', 'Rebel circles, in magenta; the rules are those of the false corners in them.'],
+  circles: ['Circles with no mover under them', 'Rebel circles, in magenta; the rules shown belong to the false corners in them.'],
   squares: ['Squares', 'Magenta boxes are squares, white their outlines; thin ones objects, the orange one is the object that is meant.'],
 };
 
@@ -337,7 +337,7 @@ function eventList(scenario, run) {
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
       mark('m3', '×', 'false (magenta cross)'), mark('m4', '□', 'where a mover really is (thin box)'),
-      mark('m4', '◇', 'radial: its image moves as that of a static point may (diamond)')),
+      mark('m4', '◇', 'radial: its image moves as the image of a static point may (diamond)')),
     ...Object.entries(FAMILIES).map(([family, [title, note]]) => {
       const events = run.events.filter((event) => event.family === family);
       return events.length === 0 ? null : el('section', null, el('h4', null, title),
@@ -403,7 +403,7 @@ function runBody(scenario, run) {
 function notes(run) {
   const lost = run.metrics['rebel.f1_lost_radial'];
   const radial = lost > 0.1 ? 'F1 lost on radial corners: ' + digits(lost)
-    + '. They lie on a mover along the line of sight, whose image moves as that of a static point may. ' : '';
+    + '. They lie on a mover along the line of sight, whose image moves as the image of a static point may. ' : '';
   const few = run.metrics['rebel.object_recall'] - run.metrics['rebel.recall'] > 0.5
     ? 'A mover is found by 3 of its corners in one frame; recall counts all of its corners in all frames.' : '';
   return radial + few === '' ? null : el('p', { class: 'small' }, radial + few);

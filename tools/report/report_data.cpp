@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
-#include "tools/input/input_file.h"
 #include "tools/output/video.h"
 #include "tools/report/page_writer.h"
 #include "tools/scoring/events.h"
@@ -46,21 +46,6 @@ constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
 /// the table and a link to their files.
 constexpr std::size_t kMostWhole = 60;
 constexpr std::ptrdiff_t kMostRemarks = 300;
-
-/// The figures in the page's tables.
-constexpr std::array<std::string_view, 13> kTable{bench::kF1,
-                                                  "rebel.precision",
-                                                  "rebel.recall",
-                                                  "rebel.f1_distinct",
-                                                  "rebel.f1_clear",
-                                                  "rebel.latency_frames_median",
-                                                  "rebel.object_recall",
-                                                  "rebel.false_objects_per_100_frames",
-                                                  "square.recall_50",
-                                                  "square.precision_50",
-                                                  "square.mask_mean_iou",
-                                                  bench::kSizeShare,
-                                                  "time.filter_over_fast"};
 
 /// The plotted columns of frames.csv.
 constexpr std::array<const char*, 10> kCurves{
@@ -104,11 +89,12 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
   figure["verdict"] = suite::word_of(difference.verdict);
 }
 
-/// \param whole all figures; else only those of the table.
+/// \param whole all figures; else only the table's figures.
 Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences, bool whole) {
   Json figures = Json::object();
   for (const bench::Metric& metric : bench::metrics()) {
-    if (!whole && std::ranges::find(kTable, metric.key) == kTable.end()) continue;
+    if (!whole && std::ranges::find(metric.shown, bench::Table::report) == metric.shown.end())
+      continue;
     const auto now = suite::over_seeds(scenario, metric.key);
     if (!now) continue;
     Json& figure = figures[metric.key] = {{"mean", now->mean}};
@@ -416,7 +402,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
       {"baseline", nullptr},
       {"is_run", false},
       {"metrics", metrics_json()},
-      {"columns", kTable},
+      {"columns", bench::keys_in(bench::Table::report)},
       {"groups", groups_of(suite.suite, of_groups)},
       {"scenarios", Json::array()}};
   if (baseline) {
@@ -436,16 +422,11 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
   return data;
 }
 
-/// The JSON text. Replaces invalid UTF-8, which names and messages may hold.
-std::string text_of(const Json& data) {
-  return bench::json_text(data);
-}
-
 }  // namespace
 
 std::string report_data(const SuiteInFolder& suite, const suite::Verdict& verdict,
                         const Against* against, std::size_t picture_budget) {
-  return text_of(data_of(suite, verdict, against, picture_budget));
+  return bench::json_text(data_of(suite, verdict, against, picture_budget));
 }
 
 std::string run_report_data(const SuiteInFolder& suite) {
@@ -458,7 +439,7 @@ std::string run_report_data(const SuiteInFolder& suite) {
     constexpr input::FileKind kVideo{kVideoBudget, "run the scenario again"};
     data["video"] = bench::base64(input::read_file(video, kVideo));
   }
-  return text_of(data);
+  return bench::json_text(data);
 }
 
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,

@@ -37,12 +37,6 @@ article td, article th { padding: 0.1rem 0.5rem; }
 nav a { margin-right: 0.9em; }
 )";
 
-constexpr std::string_view kColumns[] = {bench::kF1,
-                                         "rebel.precision",
-                                         "rebel.recall",
-                                         "rebel.object_recall",
-                                         "rebel.false_objects_per_100_frames",
-                                         "square.recall_50"};
 constexpr std::string_view kCorners = "dimension.corners_mean", kFrames = "frames";
 
 /// All worlds of a family, or a single one.
@@ -134,15 +128,16 @@ class WorldsPage : public TextPage {
 
   /// Adds a table with a row per detector.
   void table(const Worlds& worlds) {
+    const std::vector<std::string_view> keys = bench::keys_in(bench::Table::worlds);
     add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
-    for (const std::string_view key : kColumns) {
+    for (const std::string_view key : keys) {
       const bench::Metric& metric = bench::metric(key);
       add("<th title=\"{}\">{}</th>", metric.tooltip(), metric.heading());
     }
     add("</tr></thead>\n<tbody>\n");
     for (const SuiteResult* by : detectors_) {
       add("<tr><td>{}</td>", by->detector);
-      for (const std::string_view key : kColumns) {
+      for (const std::string_view key : keys) {
         add("{}", cell(*by, worlds, bench::metric(key)));
       }
       add("</tr>\n");

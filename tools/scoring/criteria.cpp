@@ -6,7 +6,7 @@
 #include <iterator>
 #include <map>
 
-#include "tools/input/spelling.h"
+#include "scenarios/input/spelling.h"
 #include "tools/scoring/metrics.h"
 
 namespace lcs::bench {

@@ -74,7 +74,7 @@ struct Event {
   int corners = 0;  ///< cost: number of missed or false corners
   /// The object's corners in these frames that recall counts; 0 for false rebels.
   int counted_corners = 0;
-  int radial_corners = 0;  ///< those of `corners` that are radial (`sim::CornerTruth::radial`)
+  int radial_corners = 0;  ///< the radial ones among `corners` (`sim::CornerTruth::radial`)
   int circles = 0;         ///< cost of a circle event: circles with no mover under them
   std::vector<std::pair<Reason, int>> reasons;  ///< with corner counts, most frequent first
   std::vector<EventView> views;                 ///< up to five, in order of time

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/output_file.h"
-#include "tools/input/input_file.h"
 #include "tools/recording/recording.h"
 #include "tools/scoring/scoring.h"
 

@@ -56,26 +56,45 @@ Figure ratio_of_circles(const Scores& s, double part, double whole) {
 
 std::vector<Metric> rebel_metrics() {
   return {
-      {"rebel.precision", [](auto& s) { return precision_of(s.corners.overall); }, kShare,
+      {"rebel.precision",
+       [](auto& s) { return precision_of(s.corners.overall); },
+       kShare,
        "precision",
        "true rebels / (true + false rebels). After the warm-up; null where recall is, as in static "
-       "scenes, else 0 without a true rebel"},
-      {"rebel.recall", [](auto& s) { return s.corners.overall.recall(); }, kShare, "recall",
+       "scenes, else 0 without a true rebel",
+       {Table::suite, Table::report, Table::worlds}},
+      {"rebel.recall",
+       [](auto& s) { return s.corners.overall.recall(); },
+       kShare,
+       "recall",
        "share of the rebel corners with verdict rebel. Counted from frame k0 + N of their object "
-       "on, whatever else the verdict is"},
-      {"rebel.f1", [](auto& s) { return s.corners.overall.f1(); }, kShare, "F1",
-       "harmonic mean of precision and recall. 0 where recall is 0, null where recall is"},
+       "on, whatever else the verdict is",
+       {Table::suite, Table::report, Table::worlds, Table::detectors}},
+      {"rebel.f1",
+       [](auto& s) { return s.corners.overall.f1(); },
+       kShare,
+       "F1",
+       "harmonic mean of precision and recall. 0 where recall is 0, null where recall is",
+       {Table::suite, Table::report, Table::worlds, Table::detectors}},
       {"rebel.precision_distinct", [](auto& s) { return precision_of(s.corners.distinct); }, kShare,
        "", "precision without radial corners"},
       {"rebel.recall_distinct", [](auto& s) { return s.corners.distinct.recall(); }, kShare, "",
        "recall without radial corners"},
-      {"rebel.f1_distinct", [](auto& s) { return s.corners.distinct.f1(); }, kShare, "F1 dist.",
-       "F1 without radial corners, which move as nearer static ones would"},
+      {"rebel.f1_distinct",
+       [](auto& s) { return s.corners.distinct.f1(); },
+       kShare,
+       "F1 dist.",
+       "F1 without radial corners, which move as nearer static ones would",
+       {Table::suite, Table::report}},
       {"rebel.precision_clear", [](auto& s) { return precision_of(s.corners.clear); }, kShare, "",
        "precision without corners at outlines. Recall is the same, as no rebel is at an outline"},
-      {"rebel.f1_clear", [](auto& s) { return s.corners.clear.f1(); }, kShare, "F1 clear",
+      {"rebel.f1_clear",
+       [](auto& s) { return s.corners.clear.f1(); },
+       kShare,
+       "F1 clear",
        "F1 without the fixed corners at outlines of movers. Its distance from 1 is what better "
-       "separation of motions can gain"},
+       "separation of motions can gain",
+       {Table::report}},
       {"rebel.recall_radial", [](auto& s) { return s.corners.radial.recall(); }, kShare,
        "radial recall", "recall over radial corners alone"},
       {"rebel.f1_lost_outline", [](auto& s) { return lost_f1(s, Difficulty::outline); }, kLostShare,
@@ -94,21 +113,29 @@ std::vector<Metric> rebel_metrics() {
        [](auto& s) { return ratio(s.corners.overall.false_rebels, s.objects.frames); },
        lower("per frame", 0.1, 1), "false corners",
        "false rebels. For static scenes, which have no precision"},
-      {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
-       kShare, "found",
+      {"rebel.object_recall",
+       [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
+       kShare,
+       "found",
        "share of the movers that are found. A mover is found if 3 or more of its corners are "
-       "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames"},
-      {"rebel.latency_frames_median", [](auto& s) { return median(s.objects.latencies); },
-       lower("frames", 0.4, 1), "latency",  // a median may be half-integer
+       "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames",
+       {Table::suite, Table::report, Table::worlds}},
+      {"rebel.latency_frames_median",
+       [](auto& s) { return median(s.objects.latencies); },
+       lower("frames", 0.4, 1),
+       "latency",  // a median may be half-integer
        "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
-       "paper's rule, which needs N sightings; 0 or 1 are possible by the default"},
+       "paper's rule, which needs N sightings; 0 or 1 are possible by the default",
+       {Table::suite, Table::report}},
       {"rebel.false_objects_per_100_frames",
        [](auto& s) {
          return ratio_of_circles(s, 100.0 * s.objects.false_circles, s.objects.frames);
        },
-       lower("per 100 frames", 1, 1), "false",
+       lower("per 100 frames", 1, 1),
+       "false",
        "rebel circles with no mover under them. There is no corner of one in the disc, no box "
-       "round the centre"},
+       "round the centre",
+       {Table::suite, Table::report, Table::worlds, Table::detectors}},
       {"rebel.circle_recall",
        [](auto& s) { return ratio_of_circles(s, s.objects.circled, s.objects.seen); }, kShare, "",
        "share of the movers with 3 or more rebel corners that have the centre of a rebel circle in "
@@ -143,17 +170,29 @@ std::vector<Metric> square_metrics() {
   const std::string right = "right / (right + wrong) squares, at the IoU in the key (%)";
   return {
       {"square.recall_30", [](auto& s) { return s.squares.at_30.recall(); }, kShare, "", boxed},
-      {"square.recall_50", [](auto& s) { return s.squares.at_50.recall(); }, kShare, "boxed",
-       boxed},
+      {"square.recall_50",
+       [](auto& s) { return s.squares.at_50.recall(); },
+       kShare,
+       "boxed",
+       boxed,
+       {Table::suite, Table::report, Table::worlds}},
       {"square.recall_70", [](auto& s) { return s.squares.at_70.recall(); }, kShare, "", boxed},
       {"square.precision_30", [](auto& s) { return s.squares.at_30.precision(); }, kShare, "",
        right},
-      {"square.precision_50", [](auto& s) { return s.squares.at_50.precision(); }, kShare,
-       "sq prec.", right},
+      {"square.precision_50",
+       [](auto& s) { return s.squares.at_50.precision(); },
+       kShare,
+       "sq prec.",
+       right,
+       {Table::suite, Table::report}},
       {"square.precision_70", [](auto& s) { return s.squares.at_70.precision(); }, kShare, "",
        right},
-      {"square.recall_50_movers", [](auto& s) { return s.squares.movers_50.recall(); }, kShare,
-       "boxed movers", "square.recall_50 over objects that move at any time in the run"},
+      {"square.recall_50_movers",
+       [](auto& s) { return s.squares.movers_50.recall(); },
+       kShare,
+       "boxed movers",
+       "square.recall_50 over objects that move at any time in the run",
+       {Table::detectors}},
       {"square.recall_50_static", [](auto& s) { return s.squares.static_50.recall(); }, kShare,
        "boxed static", "square.recall_50 over objects that never move"},
       {"square.mean_iou", [](auto& s) { return mean_iou(s.squares); }, kShare, "IoU",
@@ -172,8 +211,12 @@ std::vector<Metric> square_metrics() {
        "square.recall_50 by the IoU of masks in place of boxes"},
       {"square.mask_precision_50", [](auto& s) { return masks_of(s).at_50.precision(); }, kShare,
        "", "square.precision_50 by the IoU of masks in place of boxes"},
-      {"square.mask_mean_iou", [](auto& s) { return mean_iou(masks_of(s)); }, kShare, "mask IoU",
-       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5"},
+      {"square.mask_mean_iou",
+       [](auto& s) { return mean_iou(masks_of(s)); },
+       kShare,
+       "mask IoU",
+       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5",
+       {Table::report}},
       {"square.mask_mean_iou_movers", [](auto& s) { return mean(masks_of(s).movers_iou); }, kShare,
        "", "square.mask_mean_iou over objects that move at any time in the run"},
       {"square.mask_mean_iou_static", [](auto& s) { return mean(masks_of(s).static_iou); }, kShare,
@@ -320,15 +363,19 @@ std::vector<Metric> time_metrics() {
   std::vector<Metric> all;
   for (const Stage& stage : kStages) {
     const std::string key = std::string("time.") + stage.name, label = stage.label;
+    const bool in_detectors = key == "time.filter" || key == "time.process";
     all.push_back({key + "_ms_median", [stage](auto& s) { return median(times_of(s, stage)); },
-                   neutral("ms", 1), label, "median over frames of the stage's time"});
+                   neutral("ms", 1), label, "median over frames of the stage's time",
+                   in_detectors ? std::vector{Table::detectors} : std::vector<Table>{}});
     all.push_back({key + "_ms_p99", [stage](auto& s) { return quantile(times_of(s, stage), 0.99); },
                    neutral("ms", 1), label.empty() ? "" : label + " p99",
                    "99th percentile over frames of the stage's time"});
     if (!stage.is_of_filter) continue;
-    all.push_back({key + "_over_fast", [stage](auto& s) { return over_fast(s, stage); },
-                   neutral("", 1), label == "filter" ? "time" : "",
-                   "the stage's time over that of FAST in the same frame. Median over frames"});
+    all.push_back(
+        {key + "_over_fast", [stage](auto& s) { return over_fast(s, stage); }, neutral("", 1),
+         label == "filter" ? "time" : "",
+         "the stage's time over FAST's time in the same frame. Median over frames",
+         label == "filter" ? std::vector{Table::suite, Table::report} : std::vector<Table>{}});
   }
   all.push_back(
       {"sim.frames_per_second", frames_per_second, neutral("frames/s", 1), "",
@@ -372,7 +419,7 @@ std::vector<Metric> warning_metrics() {
       {"joints_frozen", "actors that keep a pose, and whose joints do not move"},
       {"coarse_shutter",
        "frames that shift by more than 0.5 px between two of their 64 drawings "
-       "(sim/camera/shutter.h)"},
+       "(sim/base/shutter.h)"},
       {"coarse_events",
        "frames until which the picture shifts by more than 1 px between two of the 128 instants at "
        "which events are sampled (sim/events/sampling.h)"},
@@ -418,12 +465,24 @@ const std::vector<Metric>& metrics() {
     add(other_metrics());
     add(time_metrics());
     add(warning_metrics());
-    add({{std::string(kSizeShare), nullptr, kLostShare, "size",
+    add({{std::string(kSizeShare),
+          nullptr,
+          kLostShare,
+          "size",
           "dimension.mean / dimension.five_frame_mean. In suites and comparisons, not in "
-          "metrics.json"}});
+          "metrics.json",
+          {Table::suite, Table::report}}});
     return table;
   }();
   return all;
+}
+
+std::vector<std::string_view> keys_in(Table table) {
+  std::vector<std::string_view> keys;
+  for (const Metric& metric : metrics()) {
+    if (std::ranges::find(metric.shown, table) != metric.shown.end()) keys.push_back(metric.key);
+  }
+  return keys;
 }
 
 const Metric& metric(std::string_view key) {

@@ -30,13 +30,22 @@ struct Scale {
   int decimals = 0;         ///< decimals in tables
 };
 
+/// A table with some of the metrics, in the order of `metrics()`.
+enum class Table {
+  suite,      ///< of scenarios: in the terminal, in comparisons and in Python
+  report,     ///< report.html
+  worlds,     ///< worlds.html
+  detectors,  ///< means of several detectors
+};
+
 struct Metric {
   std::string key;  ///< as in metrics.json
   std::function<std::optional<double>(const Scores&)> compute;
   Scale scale;
-  std::string label;             ///< column heading or prefix of the value; empty: in no table
-  std::string meaning;           ///< its first sentence is the table's legend
-  Truth needs = Truth::unknown;  ///< undefined if less of the truth is known
+  std::string label;              ///< column heading or prefix of the value; empty: in no table
+  std::string meaning;            ///< its first sentence is the table's legend
+  std::vector<Table> shown = {};  ///< the tables with this metric
+  Truth needs = Truth::unknown;   ///< undefined if less of the truth is known
 
   std::string number(std::optional<double> value) const;  ///< without the unit; "-" if undefined
   std::string heading() const;                            ///< such as "latency (frames)"
@@ -52,6 +61,9 @@ inline constexpr std::string_view kF1 = "rebel.f1";  ///< the figure that suites
 
 /// All metrics in the order of metrics.json, then `kSizeShare`.
 const std::vector<Metric>& metrics();
+
+/// The keys of a table's metrics.
+std::vector<std::string_view> keys_in(Table table);
 
 /// \throws std::out_of_range for an unknown key.
 const Metric& metric(std::string_view key);

@@ -38,7 +38,7 @@ struct Scores {
   bool tells_first_sightings = false;  ///< the reason `first_sighting` occurs
   std::set<int> objects_seen;
   std::int64_t rebels_found = 0, movers_found = 0;  ///< right or wrong, over all frames
-  std::int64_t edges = 0, rematched_edges = 0;      ///< normal edges, and those of the next frame
+  std::int64_t edges = 0, rematched_edges = 0;      ///< normal edges; seen in the next frame, too
   /// \name A number for each frame.
   ///@{
   std::vector<double> corner_counts;

@@ -65,7 +65,7 @@ Scorer::Scorer(const RunInfo& run)
 Scorer::~Scorer() = default;
 Scorer::Scorer(Scorer&&) noexcept = default;
 
-/// Counts the normal edges of the previous frame, and those of them that have a corner in this one.
+/// Counts the normal edges of the previous frame, and how many of them have a corner in this one.
 void Scorer::State::add_edges(const FrameRecord& frame) {
   std::set<Id> supported;
   for (const Edge& edge : frame.layers.normal_edges) {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/input/input_file.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/stages.h"
 

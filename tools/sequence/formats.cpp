@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
-#include "tools/input/message.h"
 #include "tools/process/python.h"
 #include "tools/sequence/writers.h"
 
@@ -51,7 +51,7 @@ ROS 2 (`--formats mcap`): `rosbag/`, a rosbag2 of MCAP, with standard messages:
 constexpr std::string_view kRpg = R"(
 RPG's event-camera dataset (`--formats events`); times in seconds, by the clock of the camera (`imu.txt`: of the IMU):
 
-* `rpg/events.txt`: an event a line, `t x y p`: p is 1 where light has grown, 0 where it has fallen. Pixels are those of the pictures.
+* `rpg/events.txt`: an event a line, `t x y p`: p is 1 where light has grown, 0 where it has fallen. Pixels are as in the pictures.
 * `rpg/images.txt`, `rpg/images/`: the pictures of `mav0/cam0/data` under other names, in colour; `rpg/calib.txt`: `fx fy cx cy k1 k2 p1 p2 k3`.
 * `rpg/groundtruth.txt`: `t x y z qx qy qz qw`, exact pose of C in W at each frame; `rpg/imu.txt`: `t ax ay az gx gy gz`, in S.
 )";

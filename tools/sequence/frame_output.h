@@ -37,8 +37,8 @@ struct Document {
   std::vector<Part> parts;
 };
 
-/// \name The output of a camera at its own place: beside that of cam0 in the folders that a rig
-/// shares, else in a folder of its own as cam0's is in that of the sequence.
+/// \name The output of a camera at its own place: beside cam0's output in the folders that a rig
+/// shares, else in the camera's own folder, laid out as cam0's output in the sequence's folder.
 /// \param camera as "cam1"; "": cam0.
 ///@{
 FrameOutput of_camera(const std::string& camera, FrameOutput output);

@@ -11,10 +11,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "scenarios/input/document.h"
+#include "scenarios/input/sha256.h"
 #include "sim/simulation.h"
 #include "tools/files/output_file.h"
-#include "tools/input/document.h"
-#include "tools/input/sha256.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"

@@ -70,8 +70,8 @@ class LandmarksWriter : public Writer {
                               info_.scenario.truth_min_depth_m, &info_.calibration.optics);
   }
 
-  /// The truth of corners of the picture, with motions in the picture; labels are those of the
-  /// corners in the pinhole.
+  /// The truth of corners of the picture, with motions in the picture. The labels are found for
+  /// the same corners in the pinhole's picture.
   std::vector<sim::CornerTruth> labels_in_picture(const sim::FrameTruth& truth,
                                                   std::span<const Eigen::Vector2f> corners) const {
     const sim::Pinhole& camera = info_.calibration.camera;

@@ -18,7 +18,7 @@ inline constexpr std::uint16_t kVoid = 65535;  ///< in a mask: the rover itself,
 cv::Mat1w object_mask(const sim::FrameTruth& truth);
 
 struct ObjectKind {
-  std::string category;  ///< the actor's class, or that of its shape; object for all others
+  std::string category;  ///< the actor's class, or its shape's class; object for all others
   int coco = 0;          ///< category_id
   int mot = 0;           ///< MOTChallenge's class; 8, distractor, for a category that it lacks
   bool moves = false;    ///< an actor with a motion

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/camera/optics.h"
+#include "sim/base/optics.h"
 
 namespace lcs::sequence {
 

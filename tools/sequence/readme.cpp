@@ -50,8 +50,8 @@ std::string shutter_text(const scenario::Camera& camera) {
 std::string clocks_text(const scenario::Camera& camera) {
   if (camera.time_offset_s == 0) return "there is no delay between sensors.";
   return fmt::format(
-      "the clock of\nthe camera, which stamps pictures and poses of the camera, is {} s {} that of "
-      "the IMU (Kalibr's `timeshift_cam_imu`: {}).",
+      "the clock of\nthe camera, which stamps pictures and poses of the camera, is {} s {} the "
+      "clock of the IMU (Kalibr's `timeshift_cam_imu`: {}).",
       std::abs(camera.time_offset_s), camera.time_offset_s > 0 ? "behind" : "ahead of",
       camera.time_offset_s);
 }

@@ -35,7 +35,7 @@ struct ReplaySettings {
   scenario::Scenario scenario;
   sim::Calibration calibration;  ///< without optics and camera
   sim::Lens lens;                ///< of the pictures
-  /// Of a rig: cam0, cam1 and so on; `lens` and the calibration are those of `filter_place`.
+  /// Of a rig: cam0, cam1 and so on; `lens` and the calibration belong to camera `filter_place`.
   struct Camera {
     std::string name;  ///< in the scenario
     sim::Lens lens;

@@ -285,7 +285,7 @@ void check_masks(int frame, const cv::Mat1w& mask, std::span<const sim::ObjectTr
                        seen.visible_px == object.visible_px && seen.mask == object.mask;
     if (!agree) {
       disagree(frame,
-               "the box of object {} is [{}, {}) x [{}, {}), that of its mask [{}, {}) x [{}, {})",
+               "the box of object {} is [{}, {}) x [{}, {}), its mask's box [{}, {}) x [{}, {})",
                object.object, object.left, object.right, object.top, object.bottom, seen.left,
                seen.right, seen.top, seen.bottom);
     }

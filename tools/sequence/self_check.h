@@ -37,8 +37,8 @@ struct Agreement {
 
 /// Follows the flow in its file encoding from a pixel to the next frame, and returns to this frame
 /// by the depth rendered there, the poses and the motion of the body there. It checks the seen
-/// pixels of every fourth row and column, if the depth round the goal is that of a flat surface and
-/// so can be interpolated. \return distances between start and end, px. \throws TruthError beyond
+/// pixels of every fourth row and column, if the surface round the goal is flat, so that its depth
+/// can be interpolated. \return distances between start and end, px. \throws TruthError beyond
 /// 0.05 px.
 Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
@@ -49,8 +49,8 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
 /// pictures before lens and sensor, at the pixels that are seen again and whose goal lies within
 /// the same geom. A change of brightness that a whole block of 16 x 16 pixels shares is light, and
 /// is subtracted. \return shares of the compared pixels of a block that disagree. \throws
-/// TruthError for a block in which too many do: it shows what is not where depth, masks and motion
-/// say.
+/// TruthError for a block in which too many do: something is drawn there that depth, masks and
+/// motion do not have.
 Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
                         const TrueFlow& flow);
 

@@ -11,10 +11,10 @@
 #include <tuple>
 #include <utility>
 
+#include "scenarios/input/message.h"
+#include "scenarios/input/sha256.h"
 #include "tools/files/json_node.h"
 #include "tools/files/written.h"
-#include "tools/input/message.h"
-#include "tools/input/sha256.h"
 #include "tools/sequence/readme.h"
 #include "tools/sequence/text_file.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tools/input/input_file.h"
+#include "scenarios/input/input_file.h"
 
 namespace lcs::sequence {
 

@@ -185,7 +185,7 @@ def main(words: list[str]) -> int:
     try:
         write(*map(Path, words))
         return 0
-    except Exception as fault:  # of any kind: rosbags passes those of its libraries on
+    except Exception as fault:  # of any type: rosbags passes its libraries' exceptions on
         print(f"the bag was not written ({type(fault).__name__}: {fault})", file=sys.stderr)
         return 2
 

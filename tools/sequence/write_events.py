@@ -60,7 +60,7 @@ def main(words: list[str]) -> int:
     try:
         write(*map(Path, words))
         return 0
-    except Exception as fault:  # of any kind: h5py passes those of its library on
+    except Exception as fault:  # of any type: h5py passes its library's exceptions on
         print(f"the events were not written ({type(fault).__name__}: {fault})", file=sys.stderr)
         return 2
 

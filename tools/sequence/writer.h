@@ -16,7 +16,7 @@
 
 namespace lcs::sequence {
 
-/// Added to the simulation's times, which begin at 0: all times have 19 digits then, like those of
+/// Added to the simulation's times, which begin at 0: all times have 19 digits then, like times of
 /// a clock. Files sorted by name are in time order, and tools that build names from numbers find
 /// them.
 inline constexpr std::int64_t kEpoch_ns = 1'000'000'000'000'000'000;
@@ -56,8 +56,8 @@ class Writer {
 
   /// A pure function of the frame, so that frames may be written in any order and by any process.
   virtual void write(const FrameView&, FrameOutput&) const {}
-  /// Files that contain the rows of all frames. Their paths, and those of a frame's files, are
-  /// those of cam0: `of_camera` moves the others'.
+  /// Files that contain the rows of all frames. Their paths, and the paths of a frame's files, are
+  /// for cam0; `of_camera` moves the files of another camera.
   virtual std::vector<Document> documents() const { return {}; }
 
  protected:

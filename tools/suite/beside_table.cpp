@@ -183,21 +183,19 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
   return line + '\n';
 }
 
-constexpr std::string_view kStanding[] = {bench::kF1, "rebel.recall", "square.recall_50_movers",
-                                          kFalse,     kTime,          "time.process_ms_median"};
-
 }  // namespace
 
 std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
   std::string text = "| detector |", rule = "|---|";
-  for (const std::string_view key : kStanding) {
+  const std::vector<std::string_view> keys = bench::keys_in(bench::Table::detectors);
+  for (const std::string_view key : keys) {
     text += fmt::format(" {} |", bench::metric(key).heading());
     rule += "---|";
   }
   text += '\n' + rule + '\n';
   const auto add = [&](const SuiteResult& by) {
     text += fmt::format("| `{}` |", by.detector);
-    for (const std::string_view key : kStanding) {
+    for (const std::string_view key : keys) {
       std::vector<double> figures;
       for (const ScenarioResult& scenario : by.scenarios) {
         if (const auto spread = over_seeds(scenario, key)) figures.push_back(spread->mean);

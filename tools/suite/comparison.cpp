@@ -138,7 +138,7 @@ class Comparer {
   }
 
   /// Worlds are a random sample, so each world's change is a sample. The project's own scenarios
-  /// are a fixed set: the noise of their mean is that of their seeds.
+  /// are a fixed set: the noise of their mean comes from their seeds.
   void compare_group(const std::string& group, const bench::Metric& metric) {
     std::vector<double> before, after, by_world;
     std::vector<std::vector<double>> strata;
@@ -337,12 +337,12 @@ Comparison compare(const SuiteResult& before, const SuiteResult& after,
 
 std::vector<const Difference*> shown_means(const Comparison& comparison, bool all) {
   const auto largest = std::ranges::max_element(comparison.groups, {}, &Difference::pairs);
+  const std::vector<std::string_view> tabled = bench::keys_in(bench::Table::suite);
   std::vector<const Difference*> shown;
   for (const Difference& mean : comparison.groups) {
-    const bool is_main =
-        mean.scenario == largest->scenario
-            ? std::ranges::find(tabled_metrics(), mean.metric) != tabled_metrics().end()
-            : mean.metric == bench::kF1;
+    const bool is_main = mean.scenario == largest->scenario
+                             ? std::ranges::find(tabled, mean.metric) != tabled.end()
+                             : mean.metric == bench::kF1;
     const bool has_changed = mean.verdict == Change::regressed || mean.verdict == Change::improved;
     if (all || is_main || has_changed) shown.push_back(&mean);
   }

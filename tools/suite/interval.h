@@ -26,8 +26,8 @@ struct Interval {
 /// The mean of a random sample. \param values at least one value.
 Interval interval_of(const std::vector<double>& values);
 
-/// The mean over a fixed set of strata, each a random sample, with equal weights. The noise is that
-/// within the strata (degrees of freedom by Welch and Satterthwaite, rounded down). If a stratum
+/// The mean over a fixed set of strata, each a random sample, with equal weights. Only noise within
+/// the strata counts (degrees of freedom by Welch and Satterthwaite, rounded down). If a stratum
 /// has one value, the strata's means are taken for a random sample: this overestimates the noise.
 /// \param strata at least one, none empty.
 Interval interval_of_strata(const std::vector<std::vector<double>>& strata);

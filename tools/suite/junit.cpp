@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/input/message.h"
 #include "tools/files/output_file.h"
-#include "tools/input/message.h"
 #include "tools/suite/judgement.h"
 
 namespace lcs::suite {

@@ -7,12 +7,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "scenarios/input/inputs_read.h"
+#include "scenarios/input/message.h"
+#include "scenarios/input/spelling.h"
 #include "scenarios/load.h"
 #include "scenarios/shipped.h"
 #include "scenarios/sweep.h"
-#include "tools/input/inputs_read.h"
-#include "tools/input/message.h"
-#include "tools/input/spelling.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/pattern.h"
 

@@ -29,7 +29,7 @@ struct PlanOptions {
 struct PlannedScenario {
   std::string name;               ///< unique; usable as a folder name
   std::filesystem::path file;     ///< the path for the child process
-  std::vector<std::string> sets;  ///< those of `PlanOptions`, then the point's
+  std::vector<std::string> sets;  ///< the sets of `PlanOptions`, then the point's
   std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, if any
   std::optional<scenario::Scenario> scenario;              ///< absent: `error` has the reason
   std::string error;

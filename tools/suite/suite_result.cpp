@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "scenarios/input/inputs_read.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
-#include "tools/input/inputs_read.h"
 
 namespace lcs::suite {
 namespace {

@@ -40,7 +40,7 @@ struct RunResult {
   double wall_s = 0;
 };
 
-/// How a world (tools/worlds), a scenario from a seed, was drawn.
+/// How a world (scenes/worlds), a scenario from a seed, was drawn.
 struct Drawn {
   std::string family;
   std::uint64_t again = 0;            ///< number of redraws after failed draws

@@ -17,7 +17,7 @@
 
 namespace lcs::suite {
 
-/// All files that a suite's folder may hold: its own files, and in beside/NAME/ those of the other
+/// All files that a suite's folder may hold: its own files, and in beside/NAME/ the files of other
 /// detectors.
 bench::ResultNames suite_files();
 

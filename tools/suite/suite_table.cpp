@@ -22,7 +22,7 @@ struct Column {
 const std::vector<Column>& columns() {
   static const std::vector<Column> all = [] {
     std::vector<Column> made;
-    for (const std::string_view key : tabled_metrics()) {
+    for (const std::string_view key : bench::keys_in(bench::Table::suite)) {
       made.push_back({bench::metric(key)});
       if (key == "rebel.false_objects_per_100_frames") made.back().width = 5;
     }

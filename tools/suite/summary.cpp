@@ -31,21 +31,6 @@ const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
   return found == scenario.runs.end() ? nullptr : &*found;
 }
 
-const std::vector<std::string_view>& tabled_metrics() {
-  static const std::vector<std::string_view> all{"rebel.precision",
-                                                 "rebel.recall",
-                                                 bench::kF1,
-                                                 "rebel.f1_distinct",
-                                                 "rebel.latency_frames_median",
-                                                 "rebel.object_recall",
-                                                 "rebel.false_objects_per_100_frames",
-                                                 "square.recall_50",
-                                                 "square.precision_50",
-                                                 bench::kSizeShare,
-                                                 "time.filter_over_fast"};
-  return all;
-}
-
 std::optional<double> figure_of(const RunResult& run, std::string_view name) {
   if (name != bench::kSizeShare) return metric_of(run, name);
   const std::optional<double> size = metric_of(run, "dimension.mean");

@@ -16,9 +16,6 @@ namespace lcs::suite {
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
-/// The metrics in the tables of suites, by their keys, in the order of the columns.
-const std::vector<std::string_view>& tabled_metrics();
-
 /// A metric of a run, or `bench::kSizeShare`. Absent if undefined, unknown or without figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "filter/reason.h"
+#include "filter/types/reason.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/metrics.h"
 #include "tools/suite/judgement.h"

@@ -5,9 +5,9 @@
 
 #include <iterator>
 
+#include "scenarios/input/error.h"
+#include "scenarios/input/message.h"
 #include "tools/files/csv.h"
-#include "tools/input/error.h"
-#include "tools/input/message.h"
 
 namespace lcs::tune {
 namespace {

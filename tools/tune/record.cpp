@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/input/message.h"
+#include "scenarios/input/message.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::tune {

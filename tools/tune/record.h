@@ -26,7 +26,7 @@ struct Circumstances {
   std::vector<std::string> command;  ///< its words after `lcs`
 };
 
-/// The text of `filter/learnt.h`, which gives the preset `default` these parameters.
+/// The text of `filter/types/learnt.h`, which gives the preset `default` these parameters.
 std::string preset_text(const Found& found, const Circumstances& circumstances);
 
 std::string record_text(const Found& found, const std::vector<Stated>& stated,

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/input/spelling.h"
+#include "scenarios/input/spelling.h"
 
 namespace lcs::tune {
 namespace {

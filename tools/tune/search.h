@@ -33,7 +33,7 @@ std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string
 
 struct SearchOptions {
   std::vector<Axis> axes;
-  int evaluations = 0;  ///< at most, including those of the search that it resumes
+  int evaluations = 0;  ///< at most, including evaluations of the search that it resumes
   /// 1 starts from the present values; any other seed from a random point near them. Equal results
   /// from several starts indicate a true optimum.
   std::uint64_t seed = 1;
@@ -47,7 +47,7 @@ struct Found {
 
 using Judge = std::function<Worth(const Parameters&)>;
 
-/// Adds the facts about the search itself to those of a provenance.
+/// Adds the facts about the search itself to the facts of a provenance.
 void add_facts(bench::Provenance::Json& facts, const SearchOptions& options);
 
 /// \param known receives each evaluation. Evaluations that it already holds are not repeated.

@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "filter/filter.h"
+#include "scenes/worlds/worlds.h"
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/scoring.h"
 #include "tools/suite/suite_result.h"
-#include "tools/worlds/worlds.h"
 
 namespace lcs::tune {
 namespace {

@@ -338,7 +338,7 @@ class Bags(unittest.TestCase):
         _, _, told = self.converted(self.bag("mcap", lambda m: m.image(T0), short))
         self.assertIn("1 messages of /cam/image_raw are unreadable and left out, first at", told)
 
-    def test_what_grows_without_a_bound_is_refused(self):
+    def test_unbounded_decompression_is_refused(self):
         for kind, compression in (
             ("bag", (rosbag1.Writer.CompressionFormat.BZ2,)),
             ("bag", (rosbag1.Writer.CompressionFormat.LZ4,)),

@@ -154,7 +154,7 @@ class Filter:
 class Frame:
     """
     The data of the sensors, and apart from them the truth. Arrays are read-only and keep their values
-    when the simulation continues; those of pictures are views.
+    when the simulation continues; arrays of pictures are views.
     """
     def __repr__(self) -> str:
         ...
@@ -242,7 +242,7 @@ class Motion:
     def __init__(self, *, dt: float, rotation: numpy.typing.ArrayLike | None = None, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, up: numpy.typing.ArrayLike | None = None, height: float | None = None, unseen_turn: float = 0.0, velocity_sigma: float = 0.0) -> None:
         """
         dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its frame of now;
-        angular_velocity 3, rad/s, that of the rotation where not given; up and height: the ground, see
+        angular_velocity 3, rad/s, from the rotation where not given; up and height: the ground, see
         there; unseen_turn in rad, velocity_sigma in m/s.
         """
     def __repr__(self) -> str:
@@ -270,7 +270,7 @@ class Motion:
     @property
     def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        3 x 3 float64: takes camera coordinates of the last frame to those of this one.
+        3 x 3 float64: takes camera coordinates from the last frame to this one.
         """
     @property
     def unseen_turn(self) -> float:
@@ -300,7 +300,7 @@ class Motion:
         """
 class Reason(enum.IntEnum):
     """
-    Which of the filter's rules settled a corner's verdict (filter/reason.h).
+    Which of the filter's rules settled a corner's verdict (filter/types/reason.h).
     """
     ALPHA_BEND = ...
     ALPHA_FIRST = ...
@@ -352,7 +352,7 @@ class Result:
     def edges(self) -> numpy.ndarray:
         """
         Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, corner (index of
-        its corner, -1: none), circle (index of its circle among those of its kind, -1: none), ...
+        its corner, -1: none), circle (index among the circles of its kind, -1: none), ...
         """
     @property
     def ignored(self) -> numpy.ndarray:
@@ -601,7 +601,7 @@ def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = N
     """
     Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
-    beside: "DETECTOR=FOLDER" each. The others are as those of suite.
+    beside: "DETECTOR=FOLDER" each. The other arguments are as in suite.
     Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.
     """
 def score(said: _Union[str, _PathLike[str], _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]]], *, detections: _Union[str, _PathLike[str]] = '') -> dict[str, _Optional[float]]:
@@ -651,7 +651,7 @@ def tune(suites: str | os.PathLike[str] | collections.abc.Iterable[str | os.Path
     """
 def world(family: str, seed: int = 1, *, out: str = '', pictures: str = '', sheet: bool = False) -> dict[str, typing.Any]:
     """
-    Draws a scenario and its scene from a seed, and writes them (tools/worlds/README.md).
+    Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
 
     out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for surfaces.
     Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.

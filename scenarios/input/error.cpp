@@ -1,0 +1,23 @@
+#include "scenarios/input/error.h"
+
+#include "scenarios/input/message.h"
+
+namespace lcs::input {
+
+namespace {
+
+/// "FILE:LINE: "; "" without a file.
+std::string place(const Source& where) {
+  if (where.file.empty()) return "";
+  std::string text = where.file;
+  if (where.line > 0) text.append(":").append(std::to_string(where.line));
+  return text.append(": ");
+}
+
+}  // namespace
+
+Error::Error(const Source& where, const std::string& what_and_remedy)
+    // printable, because a NUL would end the message.
+    : std::runtime_error(printable(place(where) + what_and_remedy)) {}
+
+}  // namespace lcs::input

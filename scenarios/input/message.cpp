@@ -1,0 +1,135 @@
+#include "scenarios/input/message.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+namespace lcs::input {
+namespace {
+
+constexpr std::size_t kLongest = 1000, kHead = 600, kTail = 300;
+
+std::string escaped(const char* format, std::uint32_t code) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), format, code);
+  return text.data();
+}
+
+/// \param bytes one UTF-8 sequence.
+std::uint32_t code_point(std::string_view bytes) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+  if (bytes.size() == 1) return byte(0);
+  std::uint32_t code = byte(0) & (0x7Fu >> bytes.size());
+  for (std::size_t i = 1; i < bytes.size(); ++i) code = code << 6 | (byte(i) & 0x3Fu);
+  return code;
+}
+
+bool is_control(std::uint32_t code) {
+  return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7F && code < 0xA0);
+}
+
+/// Changes the direction of writing, ends a line, or is no character, which XML cannot contain.
+bool is_unseen(std::uint32_t code) {
+  return code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF;
+}
+
+/// Whether a cut before this byte would split a UTF-8 character.
+bool is_within(char c) {
+  return (static_cast<std::uint8_t>(c) & 0xC0u) == 0x80u;
+}
+
+std::string remedy(const std::error_code& error) {
+  if (error == std::errc::too_many_files_open ||
+      error == std::errc::too_many_files_open_in_system) {
+    return "raise the limit of open files (ulimit -n)";
+  }
+  if (error == std::errc::resource_unavailable_try_again) {
+    return "end other programs, or raise the limit of processes (ulimit -u)";
+  }
+  return "end other programs, and try again";
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) {
+      shown += escaped("\\x%02x", static_cast<std::uint8_t>(text.front()));
+      text.remove_prefix(1);
+      continue;
+    }
+    const std::uint32_t code = code_point(text.substr(0, length));
+    if (is_control(code)) {
+      shown += escaped("\\x%02x", code);
+    } else if (is_unseen(code)) {
+      shown += escaped("\\u%04x", code);
+    } else {
+      shown += text.substr(0, length);
+    }
+    text.remove_prefix(length);
+  }
+  return shown;
+}
+
+std::string one_line(std::string_view text) {
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  std::string line;
+  for (const char c : printable(text)) {
+    if (c == '\t') {
+      line += "\\t";
+    } else {
+      line += c == '\n' ? ' ' : c;
+    }
+  }
+  if (line.size() <= kLongest) return line;
+  std::size_t head = kHead, tail = line.size() - kTail;
+  while (is_within(line[head])) --head;
+  while (is_within(line[tail])) ++tail;
+  return line.substr(0, head) + " [... " + std::to_string(tail - head) + " bytes ...] " +
+         line.substr(tail);
+}
+
+std::string message_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) {
+    return "there is not enough memory; end other programs, raise the limit (ulimit -v), or give "
+           "less to do at a time";
+  }
+  if (const auto* of_files = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    return one_line(of_files->path1().string() + ": " + of_files->code().message() +
+                    "; check the name and its permissions");
+  }
+  const std::string what = error.what();
+  const auto* of_system = dynamic_cast<const std::system_error*>(&error);
+  const bool has_remedy = what.find(';') != what.npos;
+  return one_line(of_system && !has_remedy ? what + "; " + remedy(of_system->code()) : what);
+}
+
+std::size_t utf8_length(std::string_view bytes) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+  const auto between = [&](std::size_t i, unsigned low, unsigned high) {
+    return i < bytes.size() && byte(i) >= low && byte(i) <= high;
+  };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead <= 0xDF) return between(1, 0x80, 0xBF) ? 2 : 0;
+  if (lead >= 0xE0 && lead <= 0xEF) {
+    const unsigned low = lead == 0xE0 ? 0xA0 : 0x80;
+    const unsigned high = lead == 0xED ? 0x9F : 0xBF;
+    return between(1, low, high) && between(2, 0x80, 0xBF) ? 3 : 0;
+  }
+  if (lead >= 0xF0 && lead <= 0xF4) {
+    const unsigned low = lead == 0xF0 ? 0x90 : 0x80;
+    const unsigned high = lead == 0xF4 ? 0x8F : 0xBF;
+    const bool whole = between(1, low, high) && between(2, 0x80, 0xBF) && between(3, 0x80, 0xBF);
+    return whole ? 4 : 0;
+  }
+  return 0;
+}
+
+}  // namespace lcs::input

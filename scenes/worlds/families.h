@@ -1,0 +1,101 @@
+/// \file
+/// Layouts of the families: the parts of a place, the rover's lane, and the traffic; with the
+/// movers and things in them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenes/worlds/kit.h"
+#include "scenes/worlds/rover.h"
+
+namespace lcs::worlds {
+
+// ---- The movers of a world, on free and visible paths
+
+/// The movers of a layout, and their area.
+struct Traffic {
+  std::vector<std::string> kinds;        ///< of things (`make_thing`)
+  Vector2d low_m{-5, -5}, high_m{5, 5};  ///< corners of their area
+  double fastest_mps = 2;
+  double farthest_m = 8;  ///< from the camera, halfway along its path
+  int most = 4;
+};
+
+struct Mover {
+  std::string name;
+  Parts parts;
+  scenario::Trajectory trajectory;
+  double start_s = 0;
+  double heading_rad = 0;  ///< at rest, before it starts
+
+  Box box_at(const Kit& kit, double t_s) const;
+};
+
+/// Draws movers one by one, each clear of static things, of the rover and of other movers.
+/// \return fewer than `count` if no free path was found.
+std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic, int count);
+
+/// Number of the run's frames in which a mover moves and is visible, by the plan.
+int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers,
+                std::size_t which);
+
+/// Adds the movers to scene and scenario, and tags the world's features that they show.
+void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers);
+
+// ---- Standing, hanging and moving things: each consists of a few parts about its origin
+
+struct Thing {
+  std::string kind;
+  Parts parts;
+};
+
+/// A thing with random size and surfaces. \throws std::invalid_argument for an unknown kind.
+Thing make_thing(Kit& kit, const std::string& kind);
+
+/// \name Things of a given size.
+///@{
+Thing carton(Kit& kit, const Vector3d& size_m);
+/// Boards between uprights, with goods on them; length along x.
+Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack);
+/// A thing that hangs from a ceiling of that height.
+Thing hanging(Kit& kit, double ceiling_m, double foot_m);
+///@}
+
+// ---- The layouts
+
+/// A returned layout already has its fixed parts; `furnish` adds those that must not block rover
+/// and movers, once their paths are known.
+struct Layout {
+  Lane lane;
+  Traffic traffic;
+  std::function<void()> furnish;
+};
+
+Layout lay_out_room(Kit& kit);
+Layout lay_out_corridor(Kit& kit);
+Layout lay_out_warehouse(Kit& kit);
+Layout lay_out_street(Kit& kit);
+Layout lay_out_yard(Kit& kit);
+Layout lay_out_garage(Kit& kit);
+
+/// \name Shared by several layouts.
+///@{
+/// Places up to `count` things at random free positions of a rectangle.
+void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& low_m,
+             const Vector2d& high_m, double gap_m = 0.15);
+/// A plain colour or a texture.
+int wall_surface(Kit& kit);
+int floor_surface(Kit& kit, const std::vector<Style>& styles);
+/// A grey, possibly with a slight tint.
+int pale(Kit& kit, double low, double high);
+/// Four walls at x and y of +-half, and a ceiling.
+void enclose(Kit& kit, const Vector2d& half_m, double height_m);
+/// Randomly adds grass, or leaves and stones, off the paths. Call it in `furnish`.
+void maybe_strew(Kit& kit, const Vector2d& low_m, const Vector2d& high_m);
+/// Randomly adds shadows on the floor.
+void maybe_shadows(Kit& kit, const Vector2d& low_m, const Vector2d& high_m);
+///@}
+
+}  // namespace lcs::worlds

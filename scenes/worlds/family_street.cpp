@@ -1,0 +1,126 @@
+// A street: facades, pavements with kerbs, parked cars, lamps and trees; it may rise ahead.
+#include <numbers>
+
+#include "scenes/worlds/families.h"
+
+namespace lcs::worlds {
+
+Layout lay_out_street(Kit& kit) {
+  Draw& d = kit.draw;
+  const double road = d.between(3, 4.5), pavement = d.between(1.5, 3);  // half width; one side
+  const double back = -8, front = d.between(25, 45);
+  kit.plainness = d.between(0.1, 0.45);
+  kit.world.has_sky = true;
+  const double cloud = d.between(0.55, 0.9);
+  kit.world.sky = {cloud * d.between(0.75, 1), cloud * d.between(0.85, 1), cloud};
+  kit.world.extent_m = front;
+  kit.world.ambient = d.between(0.45, 0.65);
+  kit.world.diffuse = d.between(0.35, 0.5);
+  const int asphalt = floor_surface(
+      kit, {Style::speckle, Style::speckle, Style::concrete, Style::fractal, Style::bricks});
+  kit.floor(asphalt, {front + 15, road + pavement + 6});
+  const double kerb = d.between(0.06, 0.14);
+  const int slabs =
+      kit.wide_surface({Style::tiles, Style::concrete, Style::speckle, Style::bricks});
+  kit.ground = [road, pavement, kerb](const Vector2d& at) {
+    return std::abs(at.y()) >= road && std::abs(at.y()) <= road + pavement ? kerb : 0.0;
+  };
+  double flat = front;
+  if (d.chance(0.4)) {
+    flat = d.between(5, 14);
+    kit.ramp(flat, front - flat + 15, 2 * (road + pavement + 2),
+             d.between(2, 7) * std::numbers::pi / 180, asphalt);
+  }
+  for (const double side : {-1.0, 1.0}) {
+    kit.world.setting.push_back(kit.block({{front - back, pavement, kerb},
+                                           {(front + back) / 2, side * (road + pavement / 2), 0},
+                                           slabs}));
+    // facades, a wall or a hedge
+    double x = back;
+    while (x < front) {
+      const double w = d.between(5, 11);
+      const double y = side * (road + pavement);
+      const double kind = d.between(0, 1);
+      if (kind < 0.7) {
+        const double h = d.between(4, 10), deep = d.between(0.3, 0.9);
+        const int face = d.chance(0.1) ? wall_surface(kit)
+                                       : kit.surface({Style::facade, Style::facade, Style::bricks});
+        kit.fix({{kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face})},
+                 {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))},
+                 0});
+        if (d.chance(0.7)) {  // a door, and a sign above it
+          const int leaf = kit.plain();
+          kit.fix({{kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, leaf})},
+                   {x + w * d.between(0.3, 0.7), y + side * 0.03},
+                   0,
+                   false});
+          if (d.chance(0.5)) {
+            kit.tag("hanging");
+            kit.fix({{kit.block({{0.05, 0.7, 0.5}, {0, 0, 2.4}, kit.surface({Style::lettering})})},
+                     {x + w * d.between(0.2, 0.8), y - side * 0.4},
+                     0,
+                     false});
+          }
+        }
+      } else if (kind < 0.85) {
+        kit.fix({{kit.block({{w, 0.3, d.between(1, 2.2)}, {0, 0, 0}, wall_surface(kit)})},
+                 {x + w / 2, y + side * 0.2},
+                 0});
+      } else {
+        kit.fix(
+            {{kit.block({{w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage})})},
+             {x + w / 2, y + side * 0.5},
+             0});
+      }
+      x += w + (d.chance(0.2) ? d.between(1, 3) : 0);
+    }
+    const Vector2d behind(0, side * (road + pavement + 4)), ahead(front, 0);  // of the gaps
+    const double height = d.between(3, 8);
+    kit.wall(behind - side * ahead, behind + side * ahead, height, kit.plain());
+  }
+  if (d.chance(0.7)) {  // the centre line
+    const int white = kit.plain({0.85, 0.85, 0.83});
+    for (double x = back; x < std::min(flat, front) - 1; x += 3) {
+      kit.decal({x, 0}, 0, {1.2, 0.12}, white);
+    }
+  }
+
+  Layout layout;
+  const bool on_wheels = d.chance(0.3);
+  layout.lane = {.start_m = {-1, d.between(-0.5, 0.5) * road},
+                 .length_m = on_wheels ? 16 : std::min(flat, front - 6),
+                 .half_width_m = 0.45 * road,
+                 .fastest_mps = on_wheels ? 2.5 : 8,
+                 .highest_camera_m = 1.6,
+                 .is_rough = on_wheels};
+  layout.traffic = {.kinds = {"car", "car", "van", "person", "person", "bicycle", "bicycle", "cart",
+                              "ball", "robot"},
+                    .low_m = {back, -road - pavement + 0.1},
+                    .high_m = {front, road + pavement - 0.1},
+                    .fastest_mps = 9,
+                    .farthest_m = 18};
+  layout.furnish = [&kit, &d, road, pavement, back, front] {
+    maybe_strew(kit, {0, -road - pavement}, {front / 2, road + pavement});
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
+        const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
+        kit.try_stand({car.kind,
+                       car.parts,
+                       {d.between(back, front), side * (road - 1.05)},
+                       d.chance(0.5) ? 0 : std::numbers::pi,
+                       0.4});
+      }
+      const double y0 = side * (road + 0.1), y1 = side * (road + pavement - 0.1);
+      scatter(kit,
+              {"lamp", "tree", "sign", "bin", "bench", "bollard", "person", "pole", "bush", "panel",
+               "bicycle"},
+              d.whole(8, 16), {back, std::min(y0, y1)}, {front * 0.8, std::max(y0, y1)});
+    }
+    scatter(kit, {"cone", "barrier", "bollard", "sack", "ball", "carton"}, d.whole(0, 6),
+            {1, -road}, {front / 2, road});
+    maybe_shadows(kit, {0, -road}, {front / 3, road});
+  };
+  return layout;
+}
+
+}  // namespace lcs::worlds

@@ -1,0 +1,377 @@
+#include "scenes/worlds/families.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/world/actor.h"
+
+namespace lcs::worlds {
+namespace {
+
+constexpr double kRoverGap_m = 0.12, kGap_m = 0.08;
+constexpr int kTries = 120;
+constexpr int kLeastSeen = 14;  // frames; the promise is ten by the truth
+constexpr double kLeastHeight_px = 14;
+
+double to_cm(double value) {
+  return std::round(value * 100) / 100;
+}
+Vector2d to_cm(const Vector2d& v) {
+  return {to_cm(v.x()), to_cm(v.y())};
+}
+
+enum class Path { across, slanting, coming, going, pacing, overtaking, shuttle, circle };
+
+/// A frame and a visible point that a path leads through.
+struct Meeting {
+  std::size_t frame = 0;
+  Vector2d at_m = Vector2d::Zero();
+  double distance_m = 0;
+};
+
+class Planner {
+ public:
+  Planner(Kit& kit, const Way& way, const Traffic& traffic)
+      : kit_(kit), d_(kit.draw), s_(kit.world.scenario), way_(way), traffic_(traffic) {
+    fovx_ =
+        2 * std::atan(std::tan(s_.camera.fovy_rad / 2) * s_.camera.width_px / s_.camera.height_px);
+    focal_px_ = s_.camera.height_px / 2.0 / std::tan(s_.camera.fovy_rad / 2);
+  }
+
+  /// Plans one candidate; the caller checks that it is free and visible.
+  bool plan(Mover& mover) {
+    const Box box = kit_.bounds(mover.parts);
+    const double radius = box.half_m.norm();
+    const Meeting meeting = meet(radius);
+    const Stand& rover = way_.frames[meeting.frame];
+    Path path = d_.pick({Path::across, Path::across, Path::across, Path::slanting, Path::slanting,
+                         Path::coming, Path::going, Path::pacing, Path::overtaking, Path::shuttle,
+                         Path::circle});
+    const double fastest = std::min(traffic_.fastest_mps, speed_in_view(meeting.distance_m));
+    double speed = d_.scaled(std::min(0.15, fastest), fastest);
+    if (d_.chance(0.15)) {  // close to the largest speed; back and forth to stay in view
+      path = Path::shuttle;
+      speed = fastest * d_.between(0.7, 1);
+    }
+    double heading = rover.heading_rad;
+    switch (path) {
+      case Path::across:
+      case Path::shuttle:
+        heading += d_.either(std::numbers::pi / 2 - 0.25, std::numbers::pi / 2 + 0.25);
+        break;
+      case Path::slanting:
+        heading += d_.chance(0.5) ? d_.either(0.4, 1.2) : d_.either(1.9, 2.7);
+        break;
+      case Path::coming:
+        heading += std::numbers::pi + d_.between(-0.25, 0.25);
+        break;
+      case Path::going:
+        heading += d_.between(-0.25, 0.25);
+        break;
+      case Path::pacing:
+      case Path::overtaking: {
+        const double rover_mps = s_.ego.phases.front().speed_mps;
+        if (rover_mps < 0.1) return false;
+        heading += s_.ego.phases.front().direction_rad;
+        speed = rover_mps * (path == Path::pacing ? 1 : d_.between(1.4, 3));
+        break;
+      }
+      case Path::circle:
+        return plan_circle(mover, meeting, box, speed);
+    }
+    return plan_straight(mover, meeting, box, heading, speed, path == Path::shuttle);
+  }
+
+  bool is_free(const Mover& mover, const std::vector<Mover>& others) const {
+    const std::size_t last = way_.frames.size() - 1;
+    for (std::size_t k = 0; k <= 4 * last; ++k) {
+      const Stand& before = way_.frames[k / 4];
+      const Stand& after = way_.frames[std::min(last, k / 4 + 1)];
+      const double share = static_cast<double>(k % 4) / 4;
+      const double t = before.t_s + share * (after.t_s - before.t_s);
+      const Stand rover{t, before.at_m + share * (after.at_m - before.at_m),
+                        before.heading_rad + share * (after.heading_rad - before.heading_rad)};
+      const Box box = mover.box_at(kit_, t);
+      if (gap_m(box, way_.box_of(s_.camera, rover)) < kRoverGap_m) return false;
+      if (least_gap_m(box, kit_.solids) < 0.02) return false;
+      for (const Mover& other : others) {
+        if (gap_m(box, other.box_at(kit_, t)) < kGap_m) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  double end_s() const { return way_.frames.back().t_s; }
+
+  /// Speed of an image motion of half the picture width a frame.
+  double speed_in_view(double distance_m) const {
+    return 0.5 * s_.camera.width_px / focal_px_ * distance_m * s_.camera.rate_hz;
+  }
+
+  Meeting meet(double radius) {
+    Meeting m;
+    const double frames = static_cast<double>(way_.frames.size() - 1);
+    m.frame = static_cast<std::size_t>(frames * d_.between(0.3, 0.7));
+    const double nearest = 0.45 + radius;
+    const double farthest = std::max(nearest * 1.5, traffic_.farthest_m);
+    m.distance_m = d_.scaled(nearest, farthest);
+    const Stand& stand = way_.frames[m.frame];
+    const Vector2d camera = camera_at(s_.camera, stand, 0).head<2>();
+    const double bearing = stand.heading_rad + d_.between(-0.42, 0.42) * fovx_;
+    m.at_m = camera + m.distance_m * towards(bearing);
+    return m;
+  }
+
+  bool is_inside(const Box& box) const {
+    for (const double x : {-1.0, 1.0}) {
+      for (const double y : {-1.0, 1.0}) {
+        const Vector2d corner = point_of(box, x, y, 0).head<2>();
+        if ((corner.array() < traffic_.low_m.array()).any() ||
+            (corner.array() > traffic_.high_m.array()).any()) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool may_be(Box box, const Vector2d& at, double level) const {
+    if (std::abs(kit_.ground(at) - level) > 0.02) return false;  // movers keep their height
+    box.centre_m = at;
+    for (const double x : {-1.0, 1.0}) {
+      for (const double y : {-1.0, 1.0}) {
+        const Vector2d corner = point_of(box, x, y, 0).head<2>();
+        const double above = kit_.ground(corner) - level;  // it would sink into a slope
+        if (above > 0.005 || above < -0.06) return false;
+      }
+    }
+    box.foot_m += level;
+    box.head_m += level;
+    return is_inside(box) && least_gap_m(box, kit_.solids) > kGap_m;
+  }
+
+  /// Length of the free path from the meeting, at most `most_m`.
+  double free_way(const Box& box, const Vector2d& from, double heading, double most_m) const {
+    constexpr double kStep_m = 0.1;
+    const double level = kit_.ground(from);
+    double way = 0;
+    while (way + kStep_m <= most_m &&
+           may_be(box, from + (way + kStep_m) * towards(heading), level)) {
+      way += kStep_m;
+    }
+    return way;
+  }
+
+  /// Plans a straight free path through the meeting; the mover rests before and after it.
+  bool plan_straight(Mover& mover, const Meeting& meeting, Box box, double heading, double speed,
+                     bool back_and_forth) {
+    box.heading_rad = heading;
+    if (!may_be(box, meeting.at_m, kit_.ground(meeting.at_m))) return false;
+    const double t = way_.frames[meeting.frame].t_s;
+    const double back = free_way(box, meeting.at_m, heading + std::numbers::pi, speed * t);
+    const double forth = free_way(box, meeting.at_m, heading, speed * (end_s() + 1 - t));
+    if (back + forth < 0.3) return false;
+    const Vector2d from = to_cm(meeting.at_m - back * towards(heading));
+    const Vector2d until = to_cm(meeting.at_m + forth * towards(heading));
+    const double leg_s = (until - from).norm() / speed;
+    mover.start_s = std::max(0.0, to_cm(t - back / speed));
+    mover.heading_rad = heading;
+    scenario::Waypoints path;
+    if (back_and_forth) {
+      const int legs = std::min(20, 2 + static_cast<int>(end_s() / leg_s));
+      for (int i = 0; i <= legs; ++i) {
+        path.points.push_back({to_cm(std::max(0.01, leg_s)) * i, i % 2 ? until : from});
+      }
+    } else if (d_.chance(0.25)) {  // starts or stops slowly: legs of increasing or decreasing speed
+      const bool stops = d_.chance(0.5);
+      constexpr int kLegs = 6;
+      for (int i = 0; i <= kLegs; ++i) {
+        const double share = static_cast<double>(i) / kLegs;
+        const double where = stops ? share * (2 - share) : share * share;
+        path.points.push_back(
+            {to_cm(1.6 * leg_s * share) + 0.01 * i, to_cm(from + where * (until - from))});
+      }
+      kit_.tag(stops ? "mover_stops" : "mover_starts");
+    } else {
+      path.points = {{0, from}, {std::max(0.02, to_cm(leg_s)), until}};
+    }
+    mover.trajectory = path;
+    return true;
+  }
+
+  bool plan_circle(Mover& mover, const Meeting& meeting, const Box& box, double speed) {
+    constexpr double kInwards_mps2 = 1.5;  // greatest lateral acceleration without tipping
+    const double radius = to_cm(d_.between(0.5, std::min(3.0, 0.5 * meeting.distance_m + 0.5)));
+    speed = std::min(speed, std::sqrt(kInwards_mps2 * radius));
+    const double angle = d_.between(-std::numbers::pi, std::numbers::pi);
+    const Vector2d centre = to_cm(meeting.at_m - radius * towards(angle));
+    const double level = kit_.ground(centre);
+    for (int i = 0; i < 24; ++i) {
+      Box there = box;
+      there.heading_rad = 2 * std::numbers::pi * i / 24 + std::numbers::pi / 2;
+      if (!may_be(there, centre + radius * towards(2 * std::numbers::pi * i / 24), level))
+        return false;
+    }
+    mover.start_s = 0;
+    mover.heading_rad = angle + std::numbers::pi / 2;
+    mover.trajectory = scenario::Circular{.centre_m = centre,
+                                          .radius_m = radius,
+                                          .start_angle_rad = to_cm(angle),
+                                          .speed_mps = d_.sign() * to_cm(std::max(0.05, speed))};
+    return true;
+  }
+
+  Kit& kit_;
+  Draw& d_;
+  const scenario::Scenario& s_;
+  const Way& way_;
+  const Traffic& traffic_;
+  double fovx_ = 1, focal_px_ = 1;
+};
+
+struct Sight {
+  int points = 0;  ///< of 27, in the picture and not occluded
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  ///< of those in front of the camera
+  bool before = false;                                        ///< a nearer mover hides part of it
+};
+
+constexpr int kLeastPoints = 5;
+
+Sight look(const Kit& kit, const Stand& stand, const Box& box, const std::vector<Box>& others) {
+  const scenario::Camera& camera = kit.world.scenario.camera;
+  const double level = kit.ground(stand.at_m);
+  const Vector3d eye = camera_at(camera, stand, level);
+  Sight sight;
+  for (const double x : {-0.8, 0.0, 0.8}) {
+    for (const double y : {-0.8, 0.0, 0.8}) {
+      for (const double z : {-0.8, 0.0, 0.8}) {
+        const Vector3d point = point_of(box, x, y, z);
+        const Vector3d seen = seen_at(camera, stand, level, point);
+        if (seen.z() < 0.06) continue;
+        sight.left = std::min(sight.left, seen.x());
+        sight.right = std::max(sight.right, seen.x());
+        sight.top = std::min(sight.top, seen.y());
+        sight.bottom = std::max(sight.bottom, seen.y());
+        if (seen.x() < 0 || seen.y() < 0 || seen.x() >= camera.width_px ||
+            seen.y() >= camera.height_px) {
+          continue;
+        }
+        const auto hides = [&](const Box& other) { return is_between(other, eye, point); };
+        if (std::ranges::any_of(kit.solids, hides)) continue;
+        if (std::ranges::any_of(others, hides)) {
+          sight.before = true;
+          continue;
+        }
+        ++sight.points;
+      }
+    }
+  }
+  return sight;
+}
+
+std::vector<Box> boxes_of_others(const Kit& kit, const std::vector<Mover>& movers,
+                                 std::size_t which, double t_s) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    if (i != which) boxes.push_back(movers[i].box_at(kit, t_s));
+  }
+  return boxes;
+}
+
+bool is_seen(const Sight& sight) {
+  return sight.points >= kLeastPoints && sight.bottom - sight.top >= kLeastHeight_px;
+}
+
+}  // namespace
+
+Box Mover::box_at(const Kit& kit, double t_s) const {
+  const sim::PlanarPose pose =
+      sim::pose_on(trajectory, {Vector2d::Zero(), heading_rad}, t_s - start_s);
+  return kit.box_at(parts, pose.position_m, pose.heading_rad);
+}
+
+int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers,
+                std::size_t which) {
+  int frames = 0;
+  for (std::size_t k = 0; k + 1 < way.frames.size(); ++k) {
+    const Stand& stand = way.frames[k];
+    const Box now = movers[which].box_at(kit, stand.t_s);
+    const Box next = movers[which].box_at(kit, way.frames[k + 1].t_s);
+    const bool moves = (now.centre_m - next.centre_m).norm() > 1e-4;
+    if (moves && is_seen(look(kit, stand, now, boxes_of_others(kit, movers, which, stand.t_s)))) {
+      ++frames;
+    }
+  }
+  return frames;
+}
+
+std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic, int count) {
+  Planner planner(kit, way, traffic);
+  std::vector<Mover> movers;
+  while (static_cast<int>(movers.size()) < count) {
+    Mover mover;
+    const bool alike = !movers.empty() && kit.draw.chance(0.3);
+    if (alike) {
+      mover.parts = movers.back().parts;
+      mover.name = movers.back().name;
+    } else {
+      const Thing thing = make_thing(kit, kit.draw.pick(traffic.kinds));
+      mover.parts = thing.parts;
+      mover.name = thing.kind;
+    }
+    bool found = false;
+    for (int i = 0; i < kTries && !found; ++i) {
+      if (!planner.plan(mover) || !planner.is_free(mover, movers)) continue;
+      std::vector<Mover> all = movers;
+      all.push_back(mover);
+      found = true;
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        found = found && frames_seen(kit, way, all, m) >= kLeastSeen;
+      }
+      if (found && alike) kit.tag("several_alike");
+    }
+    if (!found) break;
+    movers.push_back(std::move(mover));
+  }
+  return movers;
+}
+
+void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    const Mover& mover = movers[i];
+    const Box first = mover.box_at(kit, 0);
+    scenario::Actor actor;
+    actor.name = fmt::format("mover_{}_{}", i + 1, mover.name);
+    actor.body = actor.name;
+    actor.trajectory = mover.trajectory;
+    actor.start.at_s = mover.start_s;
+    kit.world.scenario.actors.push_back(actor);
+    kit.world.bodies.push_back(
+        {actor.name,
+         {first.centre_m.x(), first.centre_m.y(), first.foot_m - kit.bounds(mover.parts).foot_m},
+         Eigen::Quaterniond(Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
+         mover.parts});
+    if (kit.is_bare(mover.parts)) kit.tag("plain_mover");
+    const bool is_mesh = std::ranges::any_of(
+        mover.parts, [](const Part& part) { return part.shape == Part::Shape::mesh; });
+    kit.tag(is_mesh ? "mover_of_meshes" : "mover_of_primitives");
+    const scenario::Camera& camera = kit.world.scenario.camera;
+    for (const Stand& stand : way.frames) {
+      const Box box = mover.box_at(kit, stand.t_s);
+      const Sight sight = look(kit, stand, box, boxes_of_others(kit, movers, i, stand.t_s));
+      if (sight.before && sight.points > 0) kit.tag("mover_before_mover");
+      if (!is_seen(sight)) continue;
+      if (sight.left < 0 || sight.right > camera.width_px) kit.tag("mover_cut");
+      if (sight.right - sight.left > camera.width_px ||
+          sight.bottom - sight.top > camera.height_px) {
+        kit.tag("mover_larger_than_picture");
+      }
+    }
+  }
+}
+
+}  // namespace lcs::worlds

@@ -1,0 +1,242 @@
+#include "scenes/worlds/worlds.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "scenes/worlds/families.h"
+
+namespace lcs::worlds {
+namespace {
+
+constexpr int kMostAttempts = 200;
+constexpr int kStillSeen = 12;  // least frames of a visible mover after furnishing
+constexpr double kNear_m = 0.8;
+
+struct Family {
+  const char* name;
+  Layout (*lay_out)(Kit&);
+};
+constexpr Family kFamilies[] = {{"room", lay_out_room},           {"corridor", lay_out_corridor},
+                                {"warehouse", lay_out_warehouse}, {"street", lay_out_street},
+                                {"yard", lay_out_yard},           {"garage", lay_out_garage}};
+
+const Family& family_of(const std::string& name) {
+  for (const Family& family : kFamilies) {
+    if (family.name == name) return family;
+  }
+  throw std::invalid_argument(fmt::format("there is no family of worlds '{}'; there are {}", name,
+                                          fmt::join(families(), ", ")));
+}
+
+/// Marks the paths of rover and movers as kept free, at every quarter of a frame.
+void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
+  const scenario::Camera& camera = kit.world.scenario.camera;
+  constexpr double kRoom_m = 0.1, kLeastStep_m = 0.05;
+  const auto keep = [&](Box box) {
+    box.half_m += Vector2d(kRoom_m, kRoom_m);
+    kit.kept_free.push_back(box);
+  };
+  for (const Stand& stand : way.frames) keep(way.box_of(camera, stand));
+  for (const Mover& mover : movers) {
+    Vector2d last(1e9, 0);
+    for (std::size_t k = 0; k + 1 < way.frames.size(); ++k) {
+      for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+        const double t = way.frames[k].t_s + share * (way.frames[k + 1].t_s - way.frames[k].t_s);
+        const Box box = mover.box_at(kit, t);
+        if ((box.centre_m - last).norm() < kLeastStep_m) continue;
+        last = box.centre_m;
+        keep(box);
+      }
+    }
+  }
+}
+
+/// Places a small thing close to the camera's path or beside it, if there is room.
+void put_near(Kit& kit, const Way& way) {
+  const scenario::Camera& camera = kit.world.scenario.camera;
+  for (int i = 0; i < 40; ++i) {
+    const Thing thing = make_thing(
+        kit, kit.draw.pick({"carton", "ball", "bollard", "bin", "drum", "pole", "chair"}));
+    const Stand& stand = kit.draw.pick(way.frames);
+    const double bearing = stand.heading_rad + kit.draw.between(-0.7, 0.7);
+    const Vector2d eye = camera_at(camera, stand, 0).head<2>();
+    const double away = kit.draw.between(0.35, 0.65) + kit.bounds(thing.parts).half_m.x();
+    const double heading = kit.draw.between(0, 3);
+    if (kit.try_stand({thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01}))
+      return;
+  }
+}
+
+/// Whether a static thing is visible within `kNear_m` of the camera.
+bool shows_near(const Kit& kit, const Way& way) {
+  const scenario::Camera& camera = kit.world.scenario.camera;
+  for (const Stand& stand : way.frames) {
+    const double level = kit.ground(stand.at_m);
+    const Vector3d eye = camera_at(camera, stand, level);
+    for (const Box& box : kit.solids) {
+      if ((box.centre_m - eye.head<2>()).norm() > kNear_m + box.half_m.norm()) continue;
+      for (const double x : {-0.9, 0.0, 0.9}) {
+        for (const double y : {-0.9, 0.0, 0.9}) {
+          for (const double z : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
+            const Vector3d point = point_of(box, x, y, z);
+            const Vector3d seen = seen_at(camera, stand, level, point);
+            if ((point - eye).norm() < kNear_m && seen.z() > 0.05 && seen.x() >= 0 &&
+                seen.y() >= 0 && seen.x() < camera.width_px && seen.y() < camera.height_px) {
+              return true;
+            }
+          }
+        }
+      }
+    }
+  }
+  return false;
+}
+
+bool is_way_free(const Kit& kit, const Way& way) {
+  return std::ranges::all_of(way.frames, [&](const Stand& stand) {
+    return least_gap_m(way.box_of(kit.world.scenario.camera, stand), kit.solids) > 0.05;
+  });
+}
+
+/// Tries to build a world. \return whether it succeeded.
+bool attempt(Kit& kit, const Family& family, bool with_movers) {
+  const Layout layout = family.lay_out(kit);
+  const Way way = draw_rover(kit, layout.lane);
+  if (!is_way_free(kit, way)) return false;
+  std::vector<Mover> movers;
+  if (with_movers) {
+    movers = draw_movers(kit, way, layout.traffic, kit.draw.whole(1, layout.traffic.most));
+    if (movers.empty()) return false;
+  }
+  keep_ways_free(kit, way, movers);
+  if (kit.draw.chance(0.4)) put_near(kit, way);
+  layout.furnish();
+  if (!with_movers || kit.draw.chance(0.5)) {  // things that move in other worlds are static here
+    scatter(kit, layout.traffic.kinds, kit.draw.whole(1, 3), layout.traffic.low_m,
+            layout.traffic.high_m);
+  }
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    if (frames_seen(kit, way, movers, i) < kStillSeen) return false;
+  }
+  add_movers(kit, way, movers);
+  if (shows_near(kit, way)) kit.tag("near");
+  return true;
+}
+
+scenario::Scenario& name_scenario(World& world, const Choice& choice) {
+  scenario::Scenario& s = world.scenario;
+  s.name = name_of(world);
+  s.purpose = fmt::format("a {} drawn from seed {}{}", world.family, world.seed,
+                          s.actors.empty() ? ", where nothing moves" : "");
+  s.groups = {"world", choice.family};
+  if (s.actors.empty()) s.groups.emplace_back("static");
+  return s;
+}
+
+}  // namespace
+
+const std::vector<std::string>& families() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Family& family : kFamilies) all.emplace_back(family.name);
+    return all;
+  }();
+  return names;
+}
+
+const std::vector<std::string>& all_features() {
+  static const std::vector<std::string> names{"bare_thing",
+                                              "text",
+                                              "pattern",
+                                              "bare_wall",
+                                              "speckle",
+                                              "foliage",
+                                              "thin_pole",
+                                              "shelf",
+                                              "hanging",
+                                              "near",
+                                              "mover_larger_than_picture",
+                                              "mover_cut",
+                                              "mover_before_mover",
+                                              "several_alike",
+                                              "painted_shadow",
+                                              "slope",
+                                              "uneven_ground",
+                                              "told_with_error",
+                                              "jpeg",
+                                              "wheeled",
+                                              "no_odometry",
+                                              "plain_mover",
+                                              "mover_of_meshes",
+                                              "mover_of_primitives",
+                                              "mover_stops",
+                                              "mover_starts"};
+  return names;
+}
+
+const std::vector<Split>& splits() {
+  static const std::vector<Split> all{
+      {"train", 1, 999'999, "to learn from: parameters are chosen here"},
+      {"validate", 1'000'000, 1'999'999, "to see whether what was learnt holds elsewhere"},
+      {"test", 2'000'000, 2'999'999, "to state figures: nothing is chosen by it"}};
+  return all;
+}
+
+const Split& split(std::string_view name) {
+  for (const Split& s : splits()) {
+    if (s.name == name) return s;
+  }
+  throw std::invalid_argument(
+      fmt::format("there is no split '{}'; give train, validate or test", name));
+}
+
+std::vector<Choice> choose(std::string_view split_name, int count, const std::string& family) {
+  const Split& from = split(split_name);
+  std::vector<std::string> names = families();
+  if (!family.empty()) names = {family_of(family).name};
+  std::vector<Choice> choices;
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    choices.push_back({names[n % names.size()], from.first_seed + n / names.size()});
+  }
+  return choices;
+}
+
+bool is_static(const Choice& choice) {
+  const auto place = std::ranges::find(families(), choice.family);
+  return (choice.seed + static_cast<std::uint64_t>(place - families().begin())) % 4 == 3;
+}
+
+World draw_world(const Choice& choice, const std::vector<std::string>& pictures) {
+  const Family& family = family_of(choice.family);
+  for (int n = 0; n < kMostAttempts; ++n) {
+    Kit kit(choice.family, choice.seed, n, pictures);
+    if (!attempt(kit, family, !is_static(choice))) continue;
+    name_scenario(kit.world, choice);
+    return std::move(kit.world);
+  }
+  throw std::runtime_error(fmt::format("no {} could be drawn from seed {}; take another seed",
+                                       choice.family, choice.seed));
+}
+
+std::string name_of(const World& world) {
+  return fmt::format("{}_{}", world.family, world.seed);
+}
+
+std::optional<scenario::Origin> origin_named(std::string_view name) {
+  const std::size_t line = name.find('_');
+  scenario::Origin origin;
+  origin.family = name.substr(0, line);
+  if (line == name.npos || std::ranges::find(families(), origin.family) == families().end()) {
+    return std::nullopt;
+  }
+  name.remove_prefix(line + 1);
+  const auto error = std::from_chars(name.data(), name.data() + name.size(), origin.seed).ec;
+  return error == std::errc() ? std::optional(origin) : std::nullopt;
+}
+
+}  // namespace lcs::worlds
