@@ -64,6 +64,8 @@ void InputFile::fail(const std::string& what, std::string_view remedy) const {
 
 void InputFile::fail(int error) const {
   switch (error) {
+    case EIO:  // a fault of the disk, not of the file: nobody may take it for a bad input
+      throw std::system_error(error, std::generic_category(), file_ + " cannot be read");
     case ENOENT:
     case ENOTDIR:
       fail("there is no such file", kind_.remedy);

@@ -55,12 +55,13 @@ std::string sha256(std::string_view bytes) {
 
 std::optional<std::string> sha256_of_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) {
+    if (error == EIO) throw std::system_error(error, std::generic_category(), path.string());
     const bool are_too_many = error == EMFILE || error == ENFILE;
     throw Error(
         {path.string(), 0},
         fmt::format("the file cannot be read ({}); {}", std::generic_category().message(error),
                     are_too_many ? "raise the limit of open files (ulimit -n)"
-                                 : "check its permissions and its disk, and try again"));
+                                 : "check its permissions, and try again"));
   };
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (file < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {

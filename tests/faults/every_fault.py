@@ -460,14 +460,20 @@ class Trial:
         return "WRONG" not in record and any(
             run["outcome"] == "error" for one in scenarios for run in one["runs"])
 
+    def is_gone(self, name):
+        """Whether a finished file exists no more, not even in the sequence to which --add adds, whose
+        files are those of the unfinished one, too."""
+        shared = name.replace(".unfinished/in/", "/") if "--add" in self.case.command else name
+        return not any((self.bench.here / one).exists() for one in (name, shared))
+
     def lost_work(self, calls):
         """A piece of work that was finished and is gone, or ""."""
         for call in calls:
             found = FINISHED.search(call.path)
-            if found and call.result == 0 and not (self.bench.here / found[1]).exists():
+            if found and call.result == 0 and self.is_gone(found[1]):
                 return f"work is lost: {found[1]} was finished, and is gone"
         for name in contents(self.template):  # of an earlier process
-            if ".unfinished/in/" in name and not (self.bench.here / name).exists():
+            if ".unfinished/in/" in name and self.is_gone(name):
                 return f"work is lost: {name} was there before, and is gone"
         return ""
 

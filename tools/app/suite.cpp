@@ -317,12 +317,7 @@ class Making {
   SuiteMade made(const SuiteRequest& request);
 
  private:
-  struct Results {
-    suite::SuiteResult own;
-    std::vector<suite::SuiteResult> others;
-  };
-
-  Results run_all(const SuiteRequest& request, bench::Output& folder);
+  std::vector<suite::SuiteResult> run_all(const SuiteRequest& request, bench::Output& folder);
   std::vector<suite::SuiteResult> run(const SuiteRequest& request, bench::Output& folder,
                                       const std::vector<std::string>& detectors,
                                       const fs::path& recordings);
@@ -402,23 +397,19 @@ std::vector<suite::SuiteResult> Making::run(const SuiteRequest& request, bench::
   return results;
 }
 
-/// Detectors that need pictures cannot use a recording: they simulate in runs of their own.
-Making::Results Making::run_all(const SuiteRequest& request, bench::Output& folder) {
+/// The results, the own detector's first. Detectors that need pictures cannot use a recording: they
+/// simulate in runs of their own.
+std::vector<suite::SuiteResult> Making::run_all(const SuiteRequest& request,
+                                                bench::Output& folder) {
   std::vector<std::string> beside_own{own_}, apart;
   for (const std::string& name : request.beside) {
     const bool looks = comparators::spec_of(name).detector.sees_pictures;
     (looks && !request.recorded.empty() ? apart : beside_own).push_back(name);
   }
-  std::vector<suite::SuiteResult> others = run(request, folder, beside_own, request.recorded);
-  Results results{.own = std::move(others.front()), .others = {}};
-  others.erase(others.begin());
-  if (!apart.empty())
-    std::ranges::move(run(request, folder, apart, ""), std::back_inserter(others));
-  results.others = std::move(others);
-  for (const suite::SuiteResult& other : results.others) {
-    results.own.beside.push_back(other.detector);
-  }
-  return results;
+  std::vector<suite::SuiteResult> all = run(request, folder, beside_own, request.recorded);
+  if (!apart.empty()) std::ranges::move(run(request, folder, apart, ""), std::back_inserter(all));
+  for (std::size_t i = 1; i < all.size(); ++i) all[0].beside.push_back(all[i].detector);
+  return all;
 }
 
 SuiteMade Making::made(const SuiteRequest& request) {
@@ -433,13 +424,15 @@ SuiteMade Making::made(const SuiteRequest& request) {
   bench::Output folder(request.place.out, suite::suite_files(), bench::Unfinished::kept);
   begin(folder, provenance_, request);
   try {
-    Results results = run_all(request, folder);
+    std::vector<suite::SuiteResult> others = run_all(request, folder);
+    suite::SuiteResult own = std::move(others.front());
+    others.erase(others.begin());
     watch_.wipe();
-    results.own.recorded = recorded;
+    own.recorded = recorded;
     write_how_made(folder, request, provenance_);
-    if (of_worlds(request)) write_sheets(folder.staging(), planned_.plan, results.own, caller_);
-    return finish_suite(folder, request.place, std::move(results.own), std::move(results.others),
-                        baseline, caller_);
+    if (of_worlds(request)) write_sheets(folder.staging(), planned_.plan, own, caller_);
+    return finish_suite(folder, request.place, std::move(own), std::move(others), baseline,
+                        caller_);
   } catch (const Interrupted&) {
     watch_.wipe();
     if (whole_ == 0) throw;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenarios/input/error.h"
+#include "scenarios/input/message.h"
 #include "scenarios/input/sha256.h"
 #include "tools/files/output_file.h"
 
@@ -56,8 +57,8 @@ std::string digest_of(const fs::path& file) {
   std::optional<std::string> digest;
   try {
     digest = input::sha256_of_file(file);
-  } catch (const input::Error& error) {  // of a file that this process has written
-    throw OutputError(error.what());
+  } catch (const std::exception& error) {  // of a file that this process has written
+    throw OutputError(input::message_of(error));
   }
   if (!digest) throw OutputError(file.string() + " is gone; try again");
   return *digest;

@@ -9,6 +9,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "scenarios/input/message.h"
 #include "tools/files/output_file.h"
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_descriptors();
+  const bool is_child = argc > 0 && std::string_view(argv[0]) == lcs::suite::kChildName;
   try {
     const int exit_code =
         run_command_line({run_command(), preview_command(), replay_command(), score_command(),
@@ -67,8 +69,10 @@ int main(int argc, char** argv) {
     return fail(error.code == cv::Error::StsNoMem ? kNoMemory : error.what());
   } catch (const lcs::bench::OutputError& error) {
     fail(error.what());
-    const bool is_child = argc > 0 && std::string_view(argv[0]) == lcs::suite::kChildName;
-    return is_child ? lcs::suite::kCannotWrite : kError;
+    return is_child ? lcs::suite::kFaultyDisk : kError;
+  } catch (const std::system_error& error) {
+    fail(lcs::input::message_of(error));
+    return is_child && error.code() == std::errc::io_error ? lcs::suite::kFaultyDisk : kError;
   } catch (const std::exception& error) {
     return fail(lcs::input::message_of(error));
   }

@@ -53,7 +53,7 @@ std::string complaint_of(const Exit& exit) {
     return fmt::format("crashed: ended by signal {} ({}){}{}", exit.signal,
                        ::strsignal(exit.signal), said.empty() ? "" : "; it said: ", said);
   }
-  if ((exit.code == 2 || exit.code == kCannotWrite) && !said.empty()) return said;
+  if ((exit.code == 2 || exit.code == kFaultyDisk) && !said.empty()) return said;
   return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
 }
 

@@ -12,10 +12,10 @@
 
 namespace lcs::suite {
 
-/// The program's name in a child process. A child whose result cannot be written, as on a full disk,
-/// exits with `kCannotWrite`, so that this is told apart from a scenario that cannot be run.
+/// The program's name in a child process. A child that a disk keeps from reading or writing a file,
+/// as a full one, exits with `kFaultyDisk`, in contrast to a child of a faulty scenario.
 inline constexpr const char* kChildName = "lcs-child";
-inline constexpr int kCannotWrite = 3;
+inline constexpr int kFaultyDisk = 3;
 
 /// How a process ended.
 struct Exit {

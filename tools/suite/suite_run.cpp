@@ -122,7 +122,7 @@ void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
   run.wall_s = exit ? exit->wall_s : seconds_of(folder);
   if (exit && (exit->signal != 0 || exit->code < 0 || exit->code > 1)) {
     run.error = complaint_of(*exit);
-    if (exit->code == kCannotWrite) throw bench::OutputError(run.error);
+    if (exit->code == kFaultyDisk) throw bench::OutputError(run.error);
     bench::remove_abandoned(folder, bench::result_files());
     return;
   }
