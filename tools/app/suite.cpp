@@ -300,23 +300,12 @@ Texts child_of(const SuiteRequest& request, const suite::PlannedScenario& planne
 /// A suite while it is made.
 class Making {
  public:
-  Making(const SuiteRequest& request, Caller& caller, SuiteWatch& watch)
-      : caller_(caller), watch_(watch) {
-    const comparators::DetectorSpec spec = app::spec_of(request.detector);
-    own_ = spec.name;
-    const std::set<std::string> watching = names_of_all(request, own_);
-    if (!request.recorded.empty()) comparators::require_corners_suffice(spec);
-    planned_ = plan_suite(request, caller_);
-    if (!request.detector.detections.empty()) {
-      require_detections(request.detector.detections, planned_);
-    }
-    caller_.warn(seldom_meant(planned_.plan, spec));
-    caller_.warn(bench::not_asked(criteria_of(planned_.plan), watching));
-  }
+  Making(Caller& caller, SuiteWatch& watch) : caller_(caller), watch_(watch) {}
 
   SuiteMade made(const SuiteRequest& request);
 
  private:
+  void plan(const SuiteRequest& request);
   std::vector<suite::SuiteResult> run_all(const SuiteRequest& request, bench::Output& folder);
   std::vector<suite::SuiteResult> run(const SuiteRequest& request, bench::Output& folder,
                                       const std::vector<std::string>& detectors,
@@ -331,6 +320,20 @@ class Making {
   bench::Provenance provenance_;
   std::size_t whole_ = 0, total_ = 0;  ///< runs
 };
+
+/// Checks the request, and warns of likely mistakes.
+void Making::plan(const SuiteRequest& request) {
+  const comparators::DetectorSpec spec = app::spec_of(request.detector);
+  own_ = spec.name;
+  const std::set<std::string> watching = names_of_all(request, own_);
+  if (!request.recorded.empty()) comparators::require_corners_suffice(spec);
+  planned_ = plan_suite(request, caller_);
+  if (!request.detector.detections.empty()) {
+    require_detections(request.detector.detections, planned_);
+  }
+  caller_.warn(seldom_meant(planned_.plan, spec));
+  caller_.warn(bench::not_asked(criteria_of(planned_.plan), watching));
+}
 
 /// Where the runs of each detector go. Runs of which only the figures are kept are no part of the
 /// result, and stay until it is committed.
@@ -413,6 +416,7 @@ std::vector<suite::SuiteResult> Making::run_all(const SuiteRequest& request,
 }
 
 SuiteMade Making::made(const SuiteRequest& request) {
+  plan(request);
   std::string recorded;
   if (!request.recorded.empty()) {
     recorded = fmt::format("{}, {}", request.recorded, suite::read_suite(request.recorded).version);
@@ -445,7 +449,7 @@ SuiteMade Making::made(const SuiteRequest& request) {
 }  // namespace
 
 SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
-  return Making(request, caller, watch).made(request);
+  return Making(caller, watch).made(request);
 }
 
 }  // namespace lcs::app

@@ -16,6 +16,15 @@ constexpr std::size_t kProjection = 12;
 
 }  // namespace
 
+std::string kitti_camera(const scenario::Recorded& asked, std::span<const char* const> names,
+                         const char* otherwise) {
+  if (!asked.camera.empty()) return asked.camera;
+  for (const char* name : names) {
+    if (fs::is_directory(asked.path / name)) return name;
+  }
+  return otherwise;
+}
+
 KittiCalibration::KittiCalibration(const fs::path& file) : file_(file) {
   input::InputFile input(file, kCalibration);
   int unnamed = 0;

@@ -1,10 +1,11 @@
 /// \file
-/// KITTI's calibration files: one "NAME: numbers" a line.
+/// KITTI's cameras: their folders, and their calibration files, one "NAME: numbers" a line.
 #pragma once
 
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
+
+/// The asked camera, or else the first of the names that is a folder, or else `otherwise`.
+std::string kitti_camera(const scenario::Recorded& asked, std::span<const char* const> names,
+                         const char* otherwise);
 
 class KittiCalibration {
  public:

@@ -15,15 +15,6 @@ namespace {
 constexpr const char* kOdometryCameras[] = {"image_0", "image_2", "image_1", "image_3"};
 constexpr std::string_view kPrefix = "image_";
 
-/// The named camera, or else the first one present; "" if none is.
-std::string camera_of_sequence(const scenario::Recorded& asked) {
-  if (!asked.camera.empty()) return asked.camera;
-  for (const char* name : kOdometryCameras) {
-    if (fs::is_directory(asked.path / name)) return name;
-  }
-  return "";
-}
-
 /// Line k belongs to picture k.
 void read_times(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file);
@@ -78,7 +69,7 @@ bool is_kitti_odometry(const fs::path& folder) {
 }
 
 Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
-  const std::string camera = camera_of_sequence(asked);
+  const std::string camera = kitti_camera(asked, kOdometryCameras, "");
   if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
     throw input::Error(asked.source, "{} is not there; name a camera, as image_0",
                        (asked.path / camera).string());

@@ -103,14 +103,7 @@ std::optional<Camera> camera_of_calibration(const fs::path& drive, const std::st
   return std::nullopt;
 }
 
-/// The named camera, or else the first one present of image_00 to image_03.
-std::string camera_of_drive(const scenario::Recorded& asked) {
-  if (!asked.camera.empty()) return asked.camera;
-  for (const char* name : {"image_02", "image_00", "image_03", "image_01"}) {
-    if (fs::is_directory(asked.path / name)) return name;
-  }
-  return "image_02";
-}
+constexpr const char* kDriveCameras[] = {"image_02", "image_00", "image_03", "image_01"};
 
 /// PNG as in KITTI, or JPEG as in smaller copies.
 fs::path picture_of(const fs::path& data, std::size_t number) {
@@ -134,11 +127,11 @@ bool is_kitti(const fs::path& folder) {
   scenario::Recorded asked;
   asked.path = folder;
   return fs::is_directory(folder / "oxts" / "data") &&
-         fs::is_directory(folder / camera_of_drive(asked));
+         fs::is_directory(folder / kitti_camera(asked, kDriveCameras, "image_02"));
 }
 
 Recorded read_kitti(const scenario::Recorded& asked, bool) {
-  const std::string name = camera_of_drive(asked);
+  const std::string name = kitti_camera(asked, kDriveCameras, "image_02");
   const fs::path camera_folder = asked.path / name;
   if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
     throw input::Error(asked.source, "{} is not there; name a camera, as image_02",
