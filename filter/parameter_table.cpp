@@ -21,7 +21,7 @@ std::string number(double value) {
   return {text.data(), end};
 }
 
-double parse(const Entry& entry, std::string_view text) {
+double parse(const ParameterEntry& entry, std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
@@ -34,17 +34,17 @@ double parse(const Entry& entry, std::string_view text) {
   return value;
 }
 
-std::string range(const Entry& entry) {
+std::string range(const ParameterEntry& entry) {
   return number(entry.min) + " to " + number(entry.max);
 }
 
-void check(const Entry& entry, double value) {
+void check(const ParameterEntry& entry, double value) {
   if (value >= entry.min && value <= entry.max) return;
   throw std::invalid_argument("'" + entry.key + "' is " + number(value) + "; it may be " +
                               range(entry) + (entry.unit.empty() ? "" : " " + entry.unit));
 }
 
-double scale(const Entry& entry) {
+double scale(const ParameterEntry& entry) {
   return entry.unit == "deg" ? kDegree : 1.0;
 }
 
@@ -55,7 +55,7 @@ std::string joined(std::span<const char* const> words) {
 }
 
 /// In the format of `set`.
-std::string value_text(const Entry& entry) {
+std::string value_text(const ParameterEntry& entry) {
   if (const auto* real = std::get_if<double*>(&entry.value)) return number(**real / scale(entry));
   if (const auto* whole = std::get_if<int*>(&entry.value)) return number(**whole);
   if (const auto* flag = std::get_if<bool*>(&entry.value)) return **flag ? "true" : "false";
@@ -63,7 +63,7 @@ std::string value_text(const Entry& entry) {
 }
 
 /// The allowed values, human-readable.
-std::string range_text(const Entry& entry) {
+std::string range_text(const ParameterEntry& entry) {
   if (std::holds_alternative<bool*>(entry.value)) return "true, false";
   if (std::holds_alternative<RotationModel*>(entry.value)) return joined(kRotations);
   return range(entry);
@@ -75,12 +75,12 @@ bool is_learnt(std::string_view key) {
 
 }  // namespace
 
-void set(std::span<const Entry> entries, std::string_view key, std::string_view value) {
-  const auto found = std::ranges::find(entries, key, &Entry::key);
+void set(std::span<const ParameterEntry> entries, std::string_view key, std::string_view value) {
+  const auto found = std::ranges::find(entries, key, &ParameterEntry::key);
   if (found == entries.end()) {
     throw std::invalid_argument("the filter has no parameter '" + std::string(key) + "'");
   }
-  const Entry& entry = *found;
+  const ParameterEntry& entry = *found;
   const auto refuse = [&](const std::string& wanted) {
     throw std::invalid_argument("'" + entry.key + "' takes " + wanted + ", not '" +
                                 std::string(value) + "'");
@@ -106,8 +106,8 @@ void set(std::span<const Entry> entries, std::string_view key, std::string_view 
   *std::get<int*>(entry.value) = static_cast<int>(parsed);
 }
 
-void validate(std::span<const Entry> entries) {
-  for (const Entry& entry : entries) {
+void validate(std::span<const ParameterEntry> entries) {
+  for (const ParameterEntry& entry : entries) {
     if (const auto* real = std::get_if<double*>(&entry.value)) {
       // The conversion through radians may exceed a bound by one unit in the last place.
       const double value = **real / scale(entry);
@@ -127,16 +127,16 @@ void validate(const TrustRanks& ranks, const std::string& expert) {
                               "' must be Tr_c <= Tr_s <= Tr_m");
 }
 
-std::vector<ParameterInfo> describe(std::span<const Entry> entries) {
+std::vector<ParameterInfo> describe(std::span<const ParameterEntry> entries) {
   std::vector<ParameterInfo> infos;
-  for (const Entry& entry : entries) {
+  for (const ParameterEntry& entry : entries) {
     infos.push_back({entry.key, value_text(entry), entry.unit, range_text(entry), entry.symbol,
                      is_learnt(entry.key)});
   }
   return infos;
 }
 
-std::vector<Entry> entries_of(FieldParameters& field) {
+std::vector<ParameterEntry> entries_of(FieldParameters& field) {
   return {
       {"field.rotation", "", "", 0, 0, &field.rotation},
       {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4, &field.reference_depth_m},

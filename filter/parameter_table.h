@@ -15,7 +15,7 @@
 namespace lcs {
 
 /// A parameter: name, range and address.
-struct Entry {
+struct ParameterEntry {
   std::string key;
   std::string symbol;  ///< the paper's; "" if none
   std::string unit;    ///< values of unit "deg" are radians in the struct
@@ -24,15 +24,15 @@ struct Entry {
 };
 
 /// \throws std::invalid_argument like `set(Parameters&, ...)`.
-void set(std::span<const Entry> entries, std::string_view key, std::string_view value);
+void set(std::span<const ParameterEntry> entries, std::string_view key, std::string_view value);
 
 /// \throws std::invalid_argument like `validate(const Parameters&)`.
-void validate(std::span<const Entry> entries);
+void validate(std::span<const ParameterEntry> entries);
 void validate(const TrustRanks& ranks, const std::string& expert);
 
-std::vector<ParameterInfo> describe(std::span<const Entry> entries);
+std::vector<ParameterInfo> describe(std::span<const ParameterEntry> entries);
 
 /// The entries of the motion field's parameters.
-std::vector<Entry> entries_of(FieldParameters& field);
+std::vector<ParameterEntry> entries_of(FieldParameters& field);
 
 }  // namespace lcs

@@ -5,9 +5,9 @@
 namespace lcs {
 namespace {
 
-std::vector<Entry> entries_of(Parameters& p) {
-  std::vector<Entry> all = entries_of(p.field);
-  const std::vector<Entry> own = {
+std::vector<ParameterEntry> entries_of(Parameters& p) {
+  std::vector<ParameterEntry> all = entries_of(p.field);
+  const std::vector<ParameterEntry> own = {
       {"field.ground", "", "", 0, 0, &p.ground},
       {"line.max_corners", "", "", 1, 10000000, &p.line.max_corners},
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, &p.circle.trust.critical},

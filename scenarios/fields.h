@@ -48,8 +48,7 @@ struct Whole {    ///< a whole number in [low, high]
   std::int64_t low;
   std::int64_t high;
 };
-struct In {  ///< a quantity that is written in a unit other than its base unit
-  input::Quantity quantity;
+struct In : input::Quantity {  ///< written in a unit other than its base unit
   std::string_view unit;
 };
 struct Words {  ///< one of the words: an enumerator by its number, or a text
@@ -74,7 +73,7 @@ struct File {};            ///< must exist
 struct FolderOrFile {};    ///< must exist
 struct StyleOrPicture {};  ///< name of a texture style, or a file ("brick.png")
 struct GroupNames {};      ///< one or more distinct group names
-struct GeomGroups {};      ///< one or more distinct numbers of geom groups
+struct GroupList {};       ///< one or more distinct numbers of geom groups
 struct FilterParameters {  ///< any key
   std::string& preset;
   input::Source& source;
@@ -206,7 +205,7 @@ void fields(Camera& camera, Visit&& visit) {
          "each row is the mean of the light of this long, half of it before the row's time; 0: an "
          "instant. What moves is smeared; `image.exposure` alone sets the brightness"},
         exposure_s, kShutter);
-  visit({"groups", "of geoms that are drawn: MuJoCo's `group`, 0 to 5"}, groups, GeomGroups{});
+  visit({"groups", "of geoms that are drawn: MuJoCo's `group`, 0 to 5"}, groups, GroupList{});
 }
 
 template <class Visit>
@@ -375,7 +374,7 @@ void fields(Image& image, Visit&& visit) {
 }
 
 template <class Visit>
-void fields(Ground& ground, Visit&& visit) {
+void fields(RoughGround& ground, Visit&& visit) {
   auto& [roughness_m, wavelength_m, centre_m, size_m] = ground;
   visit({"roughness",
          "standard deviation of the height; the ground rises to four of them above the floor"},
@@ -496,7 +495,7 @@ inline constexpr std::array<const char*, 3> kSplits{"train", "validate", "test"}
 // --- recorded frames
 
 template <class Visit>
-void fields(Recorded::Topics& topics, Visit&& visit) {
+void fields(RecordingSource::Topics& topics, Visit&& visit) {
   auto& [image, camera_info, imu, poses, odometry, world] = topics;
   constexpr const char* kOnly = "the only one of its kind";
   visit({"image", "of `sensor_msgs/Image` or `CompressedImage`",
@@ -514,7 +513,7 @@ void fields(Recorded::Topics& topics, Visit&& visit) {
 }
 
 template <class Visit>
-void fields(Recorded& recorded, Visit&& visit) {
+void fields(RecordingSource& recorded, Visit&& visit) {
   auto& [source, path, format, camera, topics, fps, times, time_unit, every, poses, imu, odometry,
          speed_mps, time_offset_s, calibration, imu_calibration, focal_px, centre_px, distortion,
          bayer, bits, camera_height_m, mount_rpy_rad, mask, at_rest_s, labels, labels_video,

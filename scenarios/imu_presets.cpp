@@ -1,6 +1,7 @@
 #include "scenarios/imu_presets.h"
 
 #include <array>
+#include <ranges>
 #include <utility>
 
 namespace lcs::scenario {
@@ -25,9 +26,8 @@ constexpr std::array presets = {
 }  // namespace
 
 std::vector<std::string> imu_preset_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, noise] : presets) names.emplace_back(name);
-  return names;
+  const auto names = presets | std::views::keys;
+  return {names.begin(), names.end()};
 }
 
 std::optional<ImuNoise> imu_preset(std::string_view name) {

@@ -47,10 +47,6 @@ Kind kind_of(const input::Quantity& quantity, double) {
           {{"anyOf", {number, {{"type", "string"}, {"pattern", pattern}}}}}};
 }
 
-Kind kind_of(const In& form, double number) {
-  return kind_of(form.quantity, number);
-}
-
 template <std::integral T>
 Kind kind_of(const Whole& form, T) {
   return {fmt::format("{} to {}", form.low, form.high),
@@ -174,7 +170,7 @@ Kind kind_of(GroupNames, const std::vector<std::string>&) {
           {{"type", "array"}, {"items", name}, {"minItems", 1}, {"uniqueItems", true}}};
 }
 
-Kind kind_of(GeomGroups, const std::vector<int>&) {
+Kind kind_of(GroupList, const std::vector<int>&) {
   Kind groups = array_of(kind_of(Whole{0, 5}, 0), 1, 6);
   groups.schema["uniqueItems"] = true;
   return groups;

@@ -1,10 +1,13 @@
 #include "scenarios/load.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "scenarios/fields.h"
@@ -26,6 +29,10 @@ struct Item {
   Item at(std::size_t index, const input::Value& item) const {
     return {item, path + "." + std::to_string(index), folder};
   }
+  /// \param what follows the path.
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw input::Error(value.where, path + what);
+  }
 };
 
 // --- checks of a whole map, after its keys
@@ -43,10 +50,9 @@ void complete(input::Reader& reader, Ego& ego) {
   const auto elsewhere = std::ranges::find_if(
       ego.waypoints, [&](const Waypoint& point) { return point.position_m != ego.start_m; });
   if (elsewhere == ego.waypoints.end()) {
-    throw input::Error(reader.find("waypoints")->where,
-                       reader.path_of("waypoints") +
-                           " lead nowhere: all are one place; make one of them another, or give "
-                           "start and heading for a rover that stands");
+    reader.refuse("waypoints",
+                  " lead nowhere: all are one place; make one of them another, or give start and "
+                  "heading for a rover that stands");
   }
   const Eigen::Vector2d way = elsewhere->position_m - ego.start_m;
   ego.heading_rad = std::atan2(way.y(), way.x());
@@ -64,18 +70,15 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 
 void require_lower_triangular(input::Reader& reader, const Eigen::Matrix3d& M) {
   if (M.isLowerTriangular() && (M.diagonal().array() > 0).all()) return;
-  throw input::Error(reader.find("M")->where,
-                     reader.path_of("M") +
-                         " is not lower triangular with a diagonal above 0, as Kalibr's is; give "
-                         "[[x, 0, 0], [yx, y, 0], [zx, zy, z]], with 1 for an exact scale");
+  reader.refuse("M",
+                " is not lower triangular with a diagonal above 0, as Kalibr's is; give "
+                "[[x, 0, 0], [yx, y, 0], [zx, zy, z]], with 1 for an exact scale");
 }
 
 void complete(input::Reader& reader, Gyroscopes& gyroscopes) {
   require_lower_triangular(reader, gyroscopes.M);
   if (is_rotation(gyroscopes.C_gyro_i)) return;
-  throw input::Error(reader.find("C_gyro_i")->where,
-                     reader.path_of("C_gyro_i") +
-                         " is no rotation; give three rows of one, as Kalibr writes them");
+  reader.refuse("C_gyro_i", " is no rotation; give three rows of one, as Kalibr writes them");
 }
 
 void complete(input::Reader& reader, Accelerometers& accelerometers) {
@@ -101,19 +104,19 @@ void require_place(const Actor& actor, const std::string& path) {
   if (line && !line->heading_rad) missing = "line.heading";
   if (line && !line->from_m) missing = "line.from";
   if (missing.empty()) return;
-  throw input::Error(actor.source, path + " has a shape of its own and so needs trajectory." +
-                                       missing +
-                                       "; add it (only a body of the scene has a place there)");
+  throw input::Error(actor.source,
+                     "{} has a shape of its own and so needs trajectory.{}; add it (only a body of "
+                     "the scene has a place there)",
+                     path, missing);
 }
 
 void complete(input::Reader& reader, Actor& actor) {
   if (!actor.body) return require_place(actor, reader.path());
   for (const char* key : {"size", "texture"}) {
-    const input::Value* value = reader.find(key);
-    if (!value) continue;
-    throw input::Error(value->where, reader.path_of(key) +
-                                         " is given for a body of the scene, which has its own; "
-                                         "remove it, or give 'shape' in place of 'body'");
+    if (!reader.find(key)) continue;
+    reader.refuse(key,
+                  " is given for a body of the scene, which has its own; remove it, or give "
+                  "'shape' in place of 'body'");
   }
 }
 
@@ -121,10 +124,6 @@ void complete(input::Reader& reader, Actor& actor) {
 
 void read_value(const Item& item, const input::Quantity& quantity, double& out) {
   out = input::as_quantity(item.value, item.path, quantity);
-}
-
-void read_value(const Item& item, const In& form, double& out) {
-  out = input::as_quantity(item.value, item.path, form.quantity);
 }
 
 template <std::integral T>
@@ -234,8 +233,7 @@ void read_value(const Item& item, FolderOrFile, fs::path& out) {
   out = item.folder / input::as_text(item.value, item.path);
   std::error_code none;  // for a name that no file can have
   if (!fs::is_directory(out, none) && !fs::is_regular_file(out, none)) {
-    throw input::Error(item.value.where, item.path + ": there is no folder or video " +
-                                             out.string() + "; " + path_remedy(item.folder));
+    item.refuse(": there is no folder or video " + out.string() + "; " + path_remedy(item.folder));
   }
   input::note_input(out);
 }
@@ -247,17 +245,15 @@ void read_value(const Item& item, StyleOrPicture, std::string& out) {
 }
 
 /// Number of frames at 0, 1/rate, 2/rate, ... before the end.
-int frames_before(double duration_s, double rate_hz, const input::Value& duration) {
-  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, despite binary rounding
-  const double frames = std::ceil(duration_s * rate_hz - rounding);
-  if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
-  throw input::Error(duration.where, "duration '" + duration.text + "' makes more than " +
-                                         std::to_string(kMostFrames) + " frames; shorten it");
-}
-
 void read_value(const Item& item, const FramesBefore& form, int& frames) {
+  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, despite binary rounding
   const double duration_s = input::as_quantity(item.value, item.path, kDuration);
-  frames = frames_before(duration_s, form.rate_hz, item.value);
+  const double count = std::ceil(duration_s * form.rate_hz - rounding);
+  if (count > kMostFrames) {
+    throw input::Error(item.value.where, "duration '{}' makes more than {} frames; shorten it",
+                       item.value.text, kMostFrames);
+  }
+  frames = std::max(1, static_cast<int>(count));
 }
 
 void read_value(const Item& item, Plain, Distortion& out) {
@@ -275,6 +271,8 @@ void read_value(const Item& item, Plain, Distortion& out) {
   read_value(Item{list, path, item.folder}, kCoefficient, out.coefficients);
 }
 
+constexpr const char* kNotLater = "', not after the one before; make the times increase";
+
 void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
   for (const input::Value& value : input::as_list(item.value, item.path)) {
     const Item next = item.at(points.size(), value);
@@ -283,14 +281,12 @@ void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
                          {input::as_quantity(triple[1], next.path + ".1", kPosition),
                           input::as_quantity(triple[2], next.path + ".2", kPosition)}};
     if (!points.empty() && point.at_s <= points.back().at_s) {
-      throw input::Error(value.where, next.path + " is at '" + triple[0].text +
-                                          "', not after the one before; make the times increase");
+      next.refuse(" is at '" + triple[0].text + kNotLater);
     }
     points.push_back(point);
   }
   if (points.size() < 2) {
-    throw input::Error(item.value.where,
-                       item.path + " has fewer than two waypoints; give two or more [time, x, y]");
+    item.refuse(" has fewer than two waypoints; give two or more [time, x, y]");
   }
 }
 
@@ -306,16 +302,12 @@ void read_value(const Item& item, Plain, std::vector<PathPose>& path) {
       read_value(next.at(4 + i, seven[4 + i]), kAngle, pose.rpy_rad[axis]);
     }
     if (!path.empty() && pose.at_s <= path.back().at_s) {
-      throw input::Error(value.where, next.path + " is at '" + seven[0].text +
-                                          "', not after the one before; make the times increase");
+      next.refuse(" is at '" + seven[0].text + kNotLater);
     }
     path.push_back(pose);
   }
   if (path.size() < 2) {
-    throw input::Error(
-        item.value.where,
-        item.path +
-            " has fewer than two poses; give two or more [time, x, y, z, roll, pitch, yaw]");
+    item.refuse(" has fewer than two poses; give two or more [time, x, y, z, roll, pitch, yaw]");
   }
 }
 
@@ -331,34 +323,28 @@ void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
     const TimeSpan gap{input::as_quantity(pair[0], next.path + ".0", kDuration),
                        input::as_quantity(pair[1], next.path + ".1", kDuration)};
     if (gap.to_s <= gap.from_s || (!gaps.empty() && gap.from_s < gaps.back().to_s)) {
-      throw input::Error(value.where, next.path + " is [" + pair[0].text + ", " + pair[1].text +
-                                          "]; make the times increase, from each gap to the next");
+      next.refuse(fmt::format(" is [{}, {}]; make the times increase, from each gap to the next",
+                              pair[0].text, pair[1].text));
     }
     gaps.push_back(gap);
   }
 }
 
-bool is_name(const std::string& text) {
-  return std::ranges::all_of(text, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
+constexpr std::string_view kNameChars = "abcdefghijklmnopqrstuvwxyz0123456789_-";
 
-void read_value(const Item& item, GeomGroups, std::vector<int>& groups) {
+void read_value(const Item& item, GroupList, std::vector<int>& groups) {
   groups.clear();
   for (const input::Value& value : input::as_list(item.value, item.path)) {
-    const std::string path = item.at(groups.size(), value).path;
-    const int group = static_cast<int>(input::as_integer(value, path, 0, 5));
-    if (std::ranges::find(groups, group) != groups.end()) {
-      throw input::Error(value.where, path + " is '" + value.text + "' again; remove one");
+    const Item next = item.at(groups.size(), value);
+    const int group = static_cast<int>(input::as_integer(value, next.path, 0, 5));
+    if (std::ranges::count(groups, group) > 0) {
+      next.refuse(" is '" + value.text + "' again; remove one");
     }
     groups.push_back(group);
   }
   if (groups.empty()) {
-    throw input::Error(
-        item.value.where,
-        item.path +
-            " is an empty list, and nothing would be drawn; give one or more, or remove the key");
+    item.refuse(
+        " is an empty list, and nothing would be drawn; give one or more, or remove the key");
   }
 }
 
@@ -366,10 +352,10 @@ void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) 
   groups.clear();
   for (const input::Value& value : input::as_list(item.value, item.path)) {
     const std::string& group = input::as_text(value, item.at(groups.size(), value).path);
-    if (!is_name(group)) {
+    if (group.find_first_not_of(kNameChars) != group.npos) {
       throw input::Error(
-          value.where,
-          "the group '" + group + "' has other characters than a-z, 0-9, '_' and '-'; rename it");
+          value.where, "the group '{}' has other characters than a-z, 0-9, '_' and '-'; rename it",
+          group);
     }
     if (std::ranges::count(groups, group) > 0) {
       throw input::Error(value.where, "groups has '" + group + "' twice; remove one");
@@ -419,9 +405,8 @@ SweptKey read_key(const input::Entry& entry) {
   const std::string path = "sweep." + entry.key;
   if (std::ranges::count(not_to_be_swept, entry.key) > 0) {
     throw input::Error(
-        entry.where,
-        path + " cannot be swept; " +
-            (entry.key == "seed" ? "the number of seeds is the suite's option" : "remove it"));
+        entry.where, "{} cannot be swept; {}", path,
+        entry.key == "seed" ? "the number of seeds is the suite's option" : "remove it");
   }
   SweptKey swept{entry.key, {}, entry.where};
   for (const input::Value& value : input::as_list(entry.value, path)) {
@@ -455,10 +440,9 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
 /// Checks that the first exposure and gain are ones that the control may choose.
 void complete(input::Reader& reader, Image& image) {
   if (image.shadows && image.headlights) {
-    throw input::Error(reader.find("headlights")->where,
-                       reader.path_of("headlights") +
-                           " light places that the shadows of other lights leave dark, which the "
-                           "simulator does not draw; remove them, or image.shadows");
+    reader.refuse("headlights",
+                  " light places that the shadows of other lights leave dark, which the simulator "
+                  "does not draw; remove them, or image.shadows");
   }
   if (!image.auto_exposure) return;
   input::Reader inner(*reader.find("auto_exposure"), reader.path_of("auto_exposure"));
@@ -466,10 +450,11 @@ void complete(input::Reader& reader, Image& image) {
     if (bounds[0] <= first && first <= bounds[1]) return;
     const input::Value* given = inner.find(key);
     throw input::Error((given ? *given : *reader.find(key)).where,
-                       inner.path_of(key) + " is [" + input::number_text(bounds[0]) + ", " +
-                           input::number_text(bounds[1]) + "] without the " +
-                           input::number_text(first) + " of " + reader.path_of(key) +
-                           ", which the first picture has; give [least, most] round it");
+                       "{} is [{}, {}] without the {} of {}, which the first picture has; give "
+                       "[least, most] round it",
+                       inner.path_of(key), input::number_text(bounds[0]),
+                       input::number_text(bounds[1]), input::number_text(first),
+                       reader.path_of(key));
   };
   require_within("gain", image.gain, image.auto_exposure->gain);
   if (const auto& bounds_s = image.auto_exposure->exposure_s) {
@@ -482,10 +467,9 @@ void complete(input::Reader& reader, Camera& camera) {
   const double period_s = 1 / camera.rate_hz;
   const auto require_within = [&](const char* key, double time_s, const std::string& what) {
     if (time_s <= period_s) return;
-    throw input::Error(reader.find(key)->where,
-                       reader.path_of(key) + what + " more than the " +
-                           input::number_text(period_s) +
-                           " s from one frame to the next; make it shorter, or the rate lower");
+    reader.refuse(key, fmt::format("{} more than the {} s from one frame to the next; make it "
+                                   "shorter, or the rate lower",
+                                   what, input::number_text(period_s)));
   };
   require_within(camera.rolling_shutter_s > 0 ? "rolling_shutter" : "exposure",
                  camera.rolling_shutter_s + camera.exposure_s,
@@ -496,10 +480,9 @@ void complete(input::Reader& reader, Camera& camera) {
   if (const input::Value* told = reader.find("told")) {
     input::Reader inner(*told, reader.path_of("told"));
     if (std::abs(camera.told.time_offset_error_s) > period_s) {
-      throw input::Error(inner.find("time_offset_error")->where,
-                         inner.path_of("time_offset_error") + " is more than the " +
-                             input::number_text(period_s) +
-                             " s from one frame to the next; make it smaller");
+      inner.refuse("time_offset_error",
+                   fmt::format(" is more than the {} s from one frame to the next; make it smaller",
+                               input::number_text(period_s)));
     }
   }
   const input::Value* value = reader.find("T_BC");
@@ -513,10 +496,9 @@ void complete(input::Reader& reader, Camera& camera) {
   }
   const Eigen::Matrix3d R_BC = T.topLeftCorner<3, 3>();
   if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || !is_rotation(R_BC)) {
-    throw input::Error(
-        value->where,
-        reader.path_of("T_BC") +
-            " is no rigid transform; give four rows: a rotation beside a translation, and 0 0 0 1");
+    reader.refuse("T_BC",
+                  " is no rigid transform; give four rows: a rotation beside a translation, and "
+                  "0 0 0 1");
   }
   camera.mount_position_m = T.topRightCorner<3, 1>();
   Eigen::Matrix3d R;  // of a camera's forward, left and up
@@ -559,19 +541,18 @@ void complete(input::Reader& reader, Scenario& scenario) {
   if (scenario.cameras.empty() && scenario.filter_camera.empty()) return;
   const auto found = std::ranges::find(scenario.cameras, scenario.filter_camera, &RigCamera::name);
   if (found == scenario.cameras.end() && !scenario.filter_camera.empty()) {
-    throw input::Error(
-        reader.find("filter_camera")->where,
-        "filter_camera is '" + scenario.filter_camera +
-            "', and no camera of cameras has that name; give one that has, or remove it");
+    reader.refuse("filter_camera",
+                  " is '" + scenario.filter_camera +
+                      "', and no camera of cameras has that name; give one that has, or remove it");
   }
   const bool is_first = scenario.filter_camera.empty();
   scenario = seen_by(std::move(scenario),
                      is_first ? 0 : static_cast<std::size_t>(found - scenario.cameras.begin()));
   if (scenario.cameras.size() > 1 && scenario.image.rain) {
     throw input::Error(reader.find("image")->where,
-                       "image.rain falls before a single camera, and this is a rig of " +
-                           std::to_string(scenario.cameras.size()) +
-                           "; remove the rain, or give one camera");
+                       "image.rain falls before a single camera, and this is a rig of {}; remove "
+                       "the rain, or give one camera",
+                       scenario.cameras.size());
   }
 }
 
@@ -600,75 +581,60 @@ struct ReadFields {
 
 /// Keys of other simulators, of calibrations and of other maps of a scenario, and the remedy where
 /// the map has no such key.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 55> kForeignKeys{{
-    {"fx", "give camera.focal: [fx, fy]"},
-    {"fy", "give camera.focal: [fx, fy]"},
-    {"cx", "give camera.centre: [cx, cy]"},
-    {"cy", "give camera.centre: [cx, cy]"},
-    {"intrinsics", "give camera.focal: [fx, fy] and camera.centre: [cx, cy]"},
-    {"distortion_coeffs", "give camera.distortion"},
-    {"distortion_coefficients", "give camera.distortion"},
-    {"distortion_model", "give camera.distortion, with {equidistant: ...} for a fisheye"},
-    {"T_BS", "give camera.T_BC"},
-    {"T_imu_cam", "give camera.T_BC"},
-    {"T_cam_imu", "give its inverse as camera.T_BC"},
-    {"rolling_shutter", "give camera.rolling_shutter"},
-    {"rolling_shutter_line_time", "give camera.rolling_shutter: this times the rows"},
-    {"line_delay", "give camera.rolling_shutter: this times the rows"},
-    {"rolling_shutter_time", "give camera.rolling_shutter"},
-    {"rolling_shutter_tr", "give camera.rolling_shutter"},
-    {"readout_time", "give camera.rolling_shutter"},
-    {"motion_blur", "give camera.exposure"},
-    {"shutter_speed", "give camera.exposure"},
-    {"exposure_time", "give camera.exposure for blur, image.exposure for brightness"},
-    {"timeshift_cam_imu", "give camera.time_offset, with the same sign"},
-    {"time_offset", "give camera.time_offset"},
-    {"calib_camimu_dt", "give camera.time_offset, with the same sign"},
-    {"vignetting", "give image.vignetting"},
-    {"exposure", "give camera.exposure for blur, image.exposure for brightness"},
-    {"accelerometer_noise_density", "give imu.accelerometer_noise_density"},
-    {"gyroscope_noise_density", "give imu.gyroscope_noise_density"},
-    {"accelerometer_random_walk", "give imu.accelerometer_random_walk"},
-    {"gyroscope_random_walk", "give imu.gyroscope_random_walk"},
-    {"accel_noise_density", "give imu.accelerometer_noise_density"},
-    {"gyro_noise_density", "give imu.gyroscope_noise_density"},
-    {"acc_n", "give imu.accelerometer_noise_density, per sqrt(Hz)"},
-    {"gyr_n", "give imu.gyroscope_noise_density, per sqrt(Hz)"},
-    {"acc_w", "give imu.accelerometer_random_walk, per sqrt(Hz)"},
-    {"gyr_w", "give imu.gyroscope_random_walk, per sqrt(Hz)"},
-    {"update_rate", "give imu.rate"},
-    {"rate_hz", "give the rate of the sensor as its rate"},
-    {"T_i_b", "give imu.position and imu.rotation"},
-    {"stereo", "give the rig as cameras: {left: {...}, right: {...}}"},
-    {"auto_exposure", "give image.auto_exposure"},
-    {"exposure_mode", "give image.auto_exposure"},
-    {"exposure_compensation", "give image.auto_exposure.target"},
-    {"exposure_speed_up", "give image.auto_exposure.time_constant"},
-    {"exposure_speed_down", "give image.auto_exposure.time_constant"},
-    {"bloom_intensity", ""},
-    {"chromatic_aberration_intensity", ""},
-    {"lens_flare_intensity", ""},
-    {"iso", "give image.gain"},
-    {"castshadow", "give image.shadows, and castshadow to lights in the scene's file"},
-    {"shadows", "give image.shadows"},
-    {"pedestrian", "give a shape: pedestrian (rigid) or walker (limbs that move)"},
-    {"walker", "give a shape: walker"},
-    {"gait", "give shape: walker, or pose: walking to one's own shape"},
-    {"animation", "give shape: walker, or pose: walking to one's own shape"},
-    {"skin", "give shape: walker; an actor has rigid parts alone"},
-}};
+const std::vector<std::pair<std::vector<std::string_view>, std::string_view>> kForeignKeys{
+    {{"fx", "fy"}, "give camera.focal: [fx, fy]"},
+    {{"cx", "cy"}, "give camera.centre: [cx, cy]"},
+    {{"intrinsics"}, "give camera.focal: [fx, fy] and camera.centre: [cx, cy]"},
+    {{"distortion_coeffs", "distortion_coefficients"}, "give camera.distortion"},
+    {{"distortion_model"}, "give camera.distortion, with {equidistant: ...} for a fisheye"},
+    {{"T_BS", "T_imu_cam"}, "give camera.T_BC"},
+    {{"T_cam_imu"}, "give its inverse as camera.T_BC"},
+    {{"rolling_shutter", "rolling_shutter_time", "rolling_shutter_tr", "readout_time"},
+     "give camera.rolling_shutter"},
+    {{"rolling_shutter_line_time", "line_delay"},
+     "give camera.rolling_shutter: this times the rows"},
+    {{"motion_blur", "shutter_speed"}, "give camera.exposure"},
+    {{"exposure_time", "exposure"}, "give camera.exposure for blur, image.exposure for brightness"},
+    {{"timeshift_cam_imu", "calib_camimu_dt"}, "give camera.time_offset, with the same sign"},
+    {{"time_offset"}, "give camera.time_offset"},
+    {{"vignetting"}, "give image.vignetting"},
+    {{"accelerometer_noise_density", "accel_noise_density"},
+     "give imu.accelerometer_noise_density"},
+    {{"gyroscope_noise_density", "gyro_noise_density"}, "give imu.gyroscope_noise_density"},
+    {{"accelerometer_random_walk"}, "give imu.accelerometer_random_walk"},
+    {{"gyroscope_random_walk"}, "give imu.gyroscope_random_walk"},
+    {{"acc_n"}, "give imu.accelerometer_noise_density, per sqrt(Hz)"},
+    {{"gyr_n"}, "give imu.gyroscope_noise_density, per sqrt(Hz)"},
+    {{"acc_w"}, "give imu.accelerometer_random_walk, per sqrt(Hz)"},
+    {{"gyr_w"}, "give imu.gyroscope_random_walk, per sqrt(Hz)"},
+    {{"update_rate"}, "give imu.rate"},
+    {{"rate_hz"}, "give the rate of the sensor as its rate"},
+    {{"T_i_b"}, "give imu.position and imu.rotation"},
+    {{"stereo"}, "give the rig as cameras: {left: {...}, right: {...}}"},
+    {{"auto_exposure", "exposure_mode"}, "give image.auto_exposure"},
+    {{"exposure_compensation"}, "give image.auto_exposure.target"},
+    {{"exposure_speed_up", "exposure_speed_down"}, "give image.auto_exposure.time_constant"},
+    {{"bloom_intensity", "chromatic_aberration_intensity", "lens_flare_intensity"}, ""},
+    {{"iso"}, "give image.gain"},
+    {{"castshadow"}, "give image.shadows, and castshadow to lights in the scene's file"},
+    {{"shadows"}, "give image.shadows"},
+    {{"pedestrian"}, "give a shape: pedestrian (rigid) or walker (limbs that move)"},
+    {{"walker"}, "give a shape: walker"},
+    {{"gait", "animation"}, "give shape: walker, or pose: walking to one's own shape"},
+    {{"skin"}, "give shape: walker; an actor has rigid parts alone"}};
 
 void refuse_foreign_keys(const Item& item, const input::Reader& reader) {
   for (const input::Entry& entry : item.value.entries) {
     if (reader.knows(entry.key)) continue;
-    const auto* const found = std::ranges::find(kForeignKeys, std::string_view(entry.key),
-                                                &decltype(kForeignKeys)::value_type::first);
+    const auto found = std::ranges::find_if(kForeignKeys, [&](const auto& foreign) {
+      return std::ranges::count(foreign.first, entry.key) > 0;
+    });
     if (found == kForeignKeys.end()) continue;
-    throw input::Error(entry.where, "unknown key '" + entry.key + "'; " +
-                                        (found->second.empty()
-                                             ? "the simulator has none of it (scenarios/README.md, "
-                                               "'What the simulator has, and has not'); remove it"
-                                             : std::string(found->second)));
+    throw input::Error(entry.where, "unknown key '{}'; {}", entry.key,
+                       found->second.empty()
+                           ? "the simulator has none of it (scenarios/README.md, 'What the "
+                             "simulator has, and has not'); remove it"
+                           : found->second);
   }
 }
 
@@ -682,43 +648,33 @@ void read_value(const Item& item, Plain, T& out) {
   complete(reader, out);
 }
 
-/// The command of a phase at the later time `at_s`.
-EgoPhase carried_on(const EgoPhase& before, double at_s) {
-  EgoPhase phase = before;
-  phase.at_s = at_s;
-  phase.speed_mps =
-      std::max(0.0, before.speed_mps + before.acceleration_mps2 * (at_s - before.at_s));
-  return phase;
-}
-
 /// The ego's own keys are the first phase, already in `phases`.
 void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
   for (const input::Value& value : input::as_list(item.value, item.path)) {
     const EgoPhase before = phases.back();
     const Item next = item.at(phases.size() - 1, value);
     input::Reader reader(value, next.path);
-    double at_s = before.at_s;
-    reader.read("at", kTime, at_s);
-    read_value(next, Plain{}, phases.emplace_back(carried_on(before, at_s)));
-    if (at_s > before.at_s) continue;
-    const input::Value& at = *reader.find("at");
-    throw input::Error(
-        at.where, reader.path_of("at") + " is '" + at.text + "', not after the phase before (" +
-                      input::number_text(before.at_s) + " s); make the times increase");
+    EgoPhase& phase = phases.emplace_back(before);
+    const input::Value* const at = reader.find("at");
+    if (at) phase.at_s = input::as_quantity(*at, reader.path_of("at"), kTime);
+    const double after_s = phase.at_s - before.at_s;
+    phase.speed_mps = std::max(0.0, before.speed_mps + before.acceleration_mps2 * after_s);
+    read_value(next, Plain{}, phase);
+    if (phase.at_s > before.at_s) continue;
+    reader.refuse(
+        "at", fmt::format(" is '{}', not after the phase before ({} s); make the times increase",
+                          at->text, input::number_text(before.at_s)));
   }
 }
 
 /// Names are also parts of `--set` paths.
 /// \param owner as "the actor's".
 void check_name(const input::Entry& entry, const std::string& owner) {
-  const auto is_name_char = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  if (std::ranges::all_of(entry.key, is_name_char)) return;
-  throw input::Error(entry.where,
-                     owner + " name '" + entry.key +
-                         "' has other characters than letters, digits, '_' and '-'; rename it");
+  const std::string chars = std::string(kNameChars) + "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  if (entry.key.find_first_not_of(chars) == entry.key.npos) return;
+  throw input::Error(
+      entry.where, "{} name '{}' has other characters than letters, digits, '_' and '-'; rename it",
+      owner, entry.key);
 }
 
 void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
@@ -746,17 +702,16 @@ void read_value(const Item& item, Plain, std::vector<RigCamera>& cameras) {
     read_value(Item{entry.value, names.path_of(entry.key), item.folder}, Plain{}, one.camera);
     const auto require_same = [&](double Camera::*member, const char* quantity) {
       if (one.camera.*member == cameras.front().camera.*member) return;
-      throw input::Error(one.source, names.path_of(entry.key) + " has another " + quantity +
-                                         " than the camera before it; give all of a rig one " +
-                                         quantity);
+      throw input::Error(one.source,
+                         "{} has another {} than the camera before it; give all of a rig one {}",
+                         names.path_of(entry.key), quantity, quantity);
     };
     require_same(&Camera::rate_hz, "rate");
     require_same(&Camera::time_offset_s, "time_offset");
   }
   if (cameras.empty() || cameras.size() > kMostCameras) {
-    throw input::Error(item.value.where, item.path + " has " + std::to_string(cameras.size()) +
-                                             " cameras; give 1 to " + std::to_string(kMostCameras) +
-                                             ", as {left: {...}, right: {...}}");
+    item.refuse(fmt::format(" has {} cameras; give 1 to {}, as {{left: {{...}}, right: {{...}}}}",
+                            cameras.size(), kMostCameras));
   }
 }
 
@@ -765,10 +720,10 @@ std::map<std::string, std::string> world_of(const input::Value& root) {
   constexpr std::array<std::string_view, 7> kNotOfTheWorld{"purpose", "groups",   "origin", "seed",
                                                            "filter",  "criteria", "sweep"};
   input::Value world(input::Value::Kind::map, root.where);
-  for (const input::Entry& entry : root.entries) {
-    if (std::ranges::find(kNotOfTheWorld, entry.key) == kNotOfTheWorld.end())
-      world.entries.push_back(entry);
-  }
+  std::ranges::copy_if(
+      root.entries, std::back_inserter(world.entries),
+      [&](const auto& key) { return std::ranges::count(kNotOfTheWorld, key) == 0; },
+      &input::Entry::key);
   return input::flattened(world);
 }
 

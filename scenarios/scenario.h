@@ -257,7 +257,7 @@ struct Image {
 };
 
 /// Rough ground that wheels feel and the camera sees: a Gaussian random field.
-struct Ground {
+struct RoughGround {
   double roughness_m = 0.01;  ///< standard deviation of the height
   double wavelength_m = 0.6;  ///< of the shortest waves; the longest are three times as long
   std::optional<Eigen::Vector2d> centre_m;  ///< absent: the ego's start
@@ -333,7 +333,7 @@ inline constexpr std::array<const char*, 13> kRecordingFormats{
 
 /// Frames of a real camera, instead of a simulation's. The layout supplies values that are absent
 /// here; others are unknown, never invented. Camera frame: x right, y down, z forward.
-struct Recorded {
+struct RecordingSource {
   enum class Split { train, validate, test };
   /// Of a ROS bag; "": the only one of its kind.
   struct Topics {
@@ -434,7 +434,7 @@ struct Scenario {
   std::vector<std::string> groups = {"short"};  ///< at least one
   /// Replaces `scene`, `ego`, `camera`, `imu`, `odometry`, `image`, `ground` and `actors`, which
   /// then keep their defaults.
-  std::optional<Recorded> recording;
+  std::optional<RecordingSource> recording;
   std::filesystem::path scene;  ///< MJCF file, exists
   input::Source scene_source;
   std::optional<Origin> origin;  ///< as stated in the scenario file; the scene may state one, too
@@ -454,7 +454,7 @@ struct Scenario {
   std::optional<int> fast_threshold = kFastThreshold;
   double truth_min_depth_m = 0.5;  ///< least depth of the static segment (`radial`)
   Image image;
-  std::optional<Ground> ground;  ///< absent: the scene's own ground
+  std::optional<RoughGround> ground;  ///< absent: the scene's own ground
   std::vector<Actor> actors;
   std::string filter_preset;  ///< "": the filter's default
   input::Source filter_preset_source;

@@ -1,8 +1,12 @@
 #include "scenarios/scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 
@@ -23,40 +27,27 @@ std::string scenes_in(const fs::path& folder) {
     if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
   }
   std::ranges::sort(names);
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? " (it has " : ", ") + name;
-  return text.empty() ? text : text + ")";
+  return names.empty() ? "" : fmt::format(" (it has {})", fmt::join(names, ", "));
+}
+
+/// \param kind an enumerator, by whose number `files` are in order. \throws std::invalid_argument
+/// if it has no file.
+template <class Kind>
+const char* file_of(Kind kind, std::span<const char* const> files) {
+  const auto place = static_cast<std::size_t>(kind);
+  if (place >= files.size()) throw std::invalid_argument("this does not ship with the project");
+  return files[place];
 }
 
 const char* name_of(const Ego& ego) {
-  if (ego.is_carried()) return "ego/carried.xml";
-  switch (ego.drive) {
-    case Drive::holonomic:
-      return "ego/holonomic.xml";
-    case Drive::wheeled:
-      return "ego/wheeled.xml";
-    case Drive::own:
-      break;
-  }
-  throw std::invalid_argument("this rover does not ship with the project");
+  constexpr std::array kFiles{"ego/holonomic.xml", "ego/wheeled.xml"};
+  return ego.is_carried() ? "ego/carried.xml" : file_of(ego.drive, kFiles);
 }
 
 const char* name_of(Shape shape) {
-  switch (shape) {
-    case Shape::box:
-      return "actors/box.xml";
-    case Shape::cylinder:
-      return "actors/cylinder.xml";
-    case Shape::pedestrian:
-      return "actors/pedestrian.xml";
-    case Shape::car:
-      return "actors/car.xml";
-    case Shape::walker:
-      return "actors/walker.xml";
-    case Shape::own:
-      break;
-  }
-  throw std::invalid_argument("an actor has a shape that does not ship with the project");
+  constexpr std::array kFiles{"actors/box.xml", "actors/cylinder.xml", "actors/pedestrian.xml",
+                              "actors/car.xml", "actors/walker.xml"};
+  return file_of(shape, kFiles);
 }
 
 const fs::path& shipped_scenes() {

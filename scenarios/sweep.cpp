@@ -1,5 +1,7 @@
 #include "scenarios/sweep.h"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "scenarios/load.h"
@@ -9,18 +11,6 @@ namespace {
 
 /// More points are a mistake, for example an extra list, and would take days.
 constexpr std::size_t kMostPoints = 1000;
-
-std::string assignment(const std::pair<std::string, std::string>& setting) {
-  return setting.first + "=" + setting.second;
-}
-
-std::string text_of(const SweepPoint& point) {
-  std::string text;
-  for (const auto& setting : point.settings) {
-    text += (text.empty() ? "" : ", ") + assignment(setting);
-  }
-  return text;
-}
 
 /// The point of this number; its mixed-radix digits index the lists of values.
 SweepPoint point_at(const std::vector<SweptKey>& sweep, std::size_t index) {
@@ -45,7 +35,7 @@ input::Source source_of(const SweptKey& swept, const std::string& text) {
 void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep,
            const SweepPoint& point) {
   LoadOptions options;
-  for (const auto& setting : point.settings) options.sets.push_back(assignment(setting));
+  for (const auto& [key, value] : point.settings) options.sets.push_back(key + "=" + value);
   try {
     load(file, options);
   } catch (const input::Error& error) {
@@ -53,12 +43,11 @@ void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep
     for (std::size_t i = 0; i < sweep.size(); ++i) {
       const std::string prefix = "--set " + options.sets[i] + ": ";
       if (!message.starts_with(prefix)) continue;
-      throw input::Error(
-          source_of(sweep[i], point.settings[i].second),
-          "sweep." + sweep[i].key + ": " + std::string(message.substr(prefix.size())));
+      throw input::Error(source_of(sweep[i], point.settings[i].second), "sweep.{}: {}",
+                         sweep[i].key, message.substr(prefix.size()));
     }
-    throw input::Error(sweep.front().source,
-                       "sweep, at " + text_of(point) + ": " + std::string(message));
+    throw input::Error(sweep.front().source, "sweep, at {}: {}", fmt::join(options.sets, ", "),
+                       message);
   }
 }
 
@@ -70,9 +59,8 @@ std::vector<SweepPoint> sweep_points(const std::filesystem::path& file) {
   for (const SweptKey& swept : sweep) {
     count *= swept.values.size();
     if (count > kMostPoints) {
-      throw input::Error(
-          sweep.front().source,
-          "sweep has more than " + std::to_string(kMostPoints) + " points; shorten its lists");
+      throw input::Error(sweep.front().source, "sweep has more than {} points; shorten its lists",
+                         kMostPoints);
     }
   }
   std::vector<SweepPoint> points;

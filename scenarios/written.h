@@ -31,17 +31,11 @@ inline input::Value written(const input::Quantity& quantity, double number) {
   return scalar(input::quantity_text(number, quantity.dimension));
 }
 inline input::Value written(const In& form, double number) {
-  return scalar(input::quantity_text(number, form.quantity.dimension, form.unit));
+  return scalar(input::quantity_text(number, form.dimension, form.unit));
 }
-template <std::integral T>
-input::Value written(const Whole&, T number) {
+template <class Form, std::integral T>
+input::Value written(const Form&, T number) {
   return scalar(std::to_string(number));
-}
-inline input::Value written(GeomGroups, int group) {
-  return scalar(std::to_string(group));
-}
-inline input::Value written(Plain, std::uint64_t seed) {
-  return scalar(std::to_string(seed));
 }
 inline input::Value written(Plain, bool value) {
   return scalar(value ? "true" : "false");

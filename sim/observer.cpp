@@ -141,7 +141,7 @@ void Observer::render_seen(cv::Mat3b& picture, cv::Mat1i& edge) {
   }
 }
 
-void Observer::show(const Stage& stage) {
+void Observer::show(const ScenePoses& stage) {
   world_.show(stage);
   renderer_.update();
 }
@@ -229,7 +229,7 @@ void Observer::sense_events(const FrameState& frame, Observation& o) {
                                         o.index, sampling.most_shift_px, chosen.size()));
     }
   }
-  const Stage present = world_.stage();
+  const ScenePoses present = world_.stage();
   cv::Mat3b drawing;
   cv::Mat1f depth_m;
   cv::Mat1i geom, edge;
@@ -246,7 +246,7 @@ void Observer::sense_events(const FrameState& frame, Observation& o) {
 
 void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
   const Shutter& shutter = passage_.shutter();
-  const Stage present = world_.stage();
+  const ScenePoses present = world_.stage();
   show(frame.stages[Shutter::kMiddle]);
   renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
   const double shift = shift_px(frame, o.truth.depth_m, o.geom);
@@ -344,7 +344,7 @@ std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) cons
   std::vector<ObjectTruth> all =
       modal_boxes(truth.object, static_cast<int>(world_.objects().size()));
   std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
-  const Way way(truth, truth.object.rows);
+  const PointMotion way(truth, truth.object.rows);
   const bool is_pinhole = calibration_.optics.is_pinhole();
   const std::vector<double> of_lens_px =
       is_pinhole ? std::vector<double>() : areas_px(truth.object);

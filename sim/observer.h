@@ -41,7 +41,7 @@ class Observer {
   void render(Observation& o);
   void render_through_shutter(const FrameState& frame, Observation& o);
   void render_seen(cv::Mat3b& picture, cv::Mat1i& edge);
-  void show(const Stage& stage);
+  void show(const ScenePoses& stage);
   template <class OnPoint>
   void visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
                   const cv::Mat1f& depth_m, const cv::Mat1i& geom, OnPoint&& on_point) const;

@@ -93,7 +93,7 @@ void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
     StaticPoint seen = point;
-    if (!started) seen.see(x, noise2_px2_, depth_bounds(field, x));
+    if (!started) seen.update(x, noise2_px2_, depth_bounds(field, x));
     const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
                           parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
     const double moves = chance(track.belief);
@@ -148,7 +148,8 @@ double EdgeExpert::first_step(const Track& track, const Vec2& x_px,
 
 /// Updates a track by a sighting. \param chance_ppx2 `Association::chance_ppx2`.
 /// \return false if neither hypothesis explains the sighting; the track is then unchanged.
-bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field) {
+bool EdgeExpert::update(Track& track, const Vec2& x_px, double chance_ppx2,
+                        const MotionField& field) {
   const DepthBounds bounds = depth_bounds(field, x_px);
   const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
   const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
@@ -162,7 +163,7 @@ bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const M
     moving = track.as_moving.density(x_px, noise2_px2_);
     before = faded(track.log_odds, field.dt_s());
   }
-  const double still = seen.see(x_px, noise2_px2, bounds);
+  const double still = seen.update(x_px, noise2_px2, bounds);
   if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
   // A wrong match has a uniform density, plus the density of corners that look as good.
   const double none = anywhere + chance_ppx2;
@@ -178,7 +179,7 @@ bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const M
   if (!track.has_motion()) {
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
-    track.as_moving.see(x_px, noise2_px2_);
+    track.as_moving.update(x_px, noise2_px2_);
   }
   track.as_static = seen;
   track.place_px = x_px;
@@ -367,7 +368,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     find_residuals(field, chi, *track_of, started);
     const MotionFix off =
         motion_finder_.find(camera_, field, residuals_, velocity_error_.covariance());
-    field = field.corrected(off.turn_rad, velocity_error_.see(off));
+    field = field.corrected(off.turn_rad, velocity_error_.update(off));
     correct_predictions(field);
     // In the second frame no depth is known that could contradict the motion. It is checked only if
     // the motion of the last frame was contradicted.
@@ -388,7 +389,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     if ((*track_of)[c] >= 0 && !is_wrong) {
       Track& track = predicted_[(*track_of)[c]];
       track.corner = static_cast<int>(c);
-      if (see(track, chi.locations[c], association_.chance_ppx2(c), field)) {
+      if (update(track, chi.locations[c], association_.chance_ppx2(c), field)) {
         if (!chi.signatures.empty()) track.signature = chi.signatures[c];
         tracks_.push_back(track);
         continue;

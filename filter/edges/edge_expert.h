@@ -60,7 +60,7 @@ class EdgeExpert {
   void correct_residuals(const Chi& chi, const std::vector<int>& track_of, bool started);
   bool has_residual(int track, bool started) const;
   Track first_seen(const Chi& chi, std::size_t corner);
-  bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
+  bool update(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
   double faded(double log_odds, double dt_s) const;
   void coast(const MotionField& field);

@@ -140,7 +140,7 @@ void VelocityError::advance(const MotionField& told, double lasts) {
   sigma_mps_ = sigma;
 }
 
-Eigen::Vector3d VelocityError::see(const MotionFix& fix) {
+Eigen::Vector3d VelocityError::update(const MotionFix& fix) {
   const Eigen::Vector3d before_mps = mean_mps_;
   mean_mps_ += fix.velocity_mps;
   covariance_ = fix.velocity_covariance;

@@ -73,7 +73,7 @@ class VelocityError {
   /// Adds the correction of that field to the estimate. An error of more than `kFar` standard
   /// deviations is the motion of a body that fills the picture: then the given velocity is right.
   /// \return the correction of that field that is believed.
-  Eigen::Vector3d see(const MotionFix& fix);
+  Eigen::Vector3d update(const MotionFix& fix);
 
   void forget() { *this = VelocityError(share_); }
 

@@ -27,7 +27,7 @@ OwnMotion OwnMotion::predicted(const MotionField& field, double acceleration) co
   return next;
 }
 
-void OwnMotion::see(const Vec2& x_px, double noise2_px2) {
+void OwnMotion::update(const Vec2& x_px, double noise2_px2) {
   const double S = covariance(0, 0) + noise2_px2;
   const Eigen::Vector2d gain = covariance.col(0) / S;
   const Vec2 residual = x_px - place_px;

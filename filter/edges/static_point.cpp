@@ -117,7 +117,7 @@ Eigen::Matrix2d StaticPoint::spread(double noise2_px2) const {
   return covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
 }
 
-double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
+double StaticPoint::update(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
   const Eigen::Matrix2d S = spread(noise2_px2);
   const Vec2 residual = x_px - place_px;
   const double before = mass(inverse_depth_pm, covariance(2, 2), bounds);

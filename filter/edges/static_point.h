@@ -63,7 +63,7 @@ struct StaticPoint {
 
   /// Updates a predicted point by a sighting, and clamps its depth to the bounds.
   /// \return the density of the sighting, given the prediction, 1/px^2.
-  double see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
+  double update(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
 
   /// Covariance of a sighting, given the prediction, px^2.
   Eigen::Matrix2d spread(double noise2_px2) const;

@@ -32,7 +32,7 @@ struct OwnMotion {
   OwnMotion predicted(const MotionField& field, double acceleration) const;
 
   /// Kalman update by a sighting.
-  void see(const Vec2& x_px, double noise2_px2);
+  void update(const Vec2& x_px, double noise2_px2);
 
   /// Density of a sighting at `x_px`, given the prediction, 1/px^2.
   double density(const Vec2& x_px, double noise2_px2) const;

@@ -36,10 +36,10 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   }
   // The distance from the centre is invariant to mirroring and quarter turns of the image. Ties are
   // broken by coordinates, then by signatures.
-  const auto signature = [&](const Entry& entry) {
+  const auto signature = [&](const ParameterEntry& entry) {
     return signatures.empty() ? Signature{} : signatures[static_cast<std::size_t>(entry.source)];
   };
-  const auto nearer = [&](const Entry& a, const Entry& b) {
+  const auto nearer = [&](const ParameterEntry& a, const ParameterEntry& b) {
     if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
     return std::tuple(a.location.y(), a.location.x(), signature(a), a.source) <
            std::tuple(b.location.y(), b.location.x(), signature(b), b.source);
@@ -55,7 +55,7 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   chi_.sources.clear();
   chi_.signatures.clear();
   chi_.repeats.clear();
-  for (const Entry& entry : entries_) {
+  for (const ParameterEntry& entry : entries_) {
     chi_.rejected[static_cast<std::size_t>(entry.source)] = Reason::unknown;
     if (!chi_.locations.empty() && entry.location == chi_.locations.back()) {
       chi_.repeats.push_back({entry.source, chi_.sources.back()});

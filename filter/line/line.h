@@ -59,12 +59,12 @@ class LineExpert {
   Vec2 centre_px_;
   Pixels picture_;
   std::size_t max_corners_;
-  struct Entry {
+  struct ParameterEntry {
     double distance2;
     Vec2 location;
     int source;
   };
-  std::vector<Entry> entries_;
+  std::vector<ParameterEntry> entries_;
   Chi chi_;
 };
 

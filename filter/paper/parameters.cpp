@@ -7,9 +7,9 @@
 namespace lcs::paper {
 namespace {
 
-std::vector<Entry> entries_of(PaperParameters& p) {
-  std::vector<Entry> all = lcs::entries_of(p.field);
-  const std::vector<Entry> own = {
+std::vector<ParameterEntry> entries_of(PaperParameters& p) {
+  std::vector<ParameterEntry> all = lcs::entries_of(p.field);
+  const std::vector<ParameterEntry> own = {
       {"line.ignore", "psi", "", 0, 0, &p.ignore},
       {"line.max_corners", "", "", 1, 10000000, &p.line.max_corners},
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, &p.circle.trust.critical},

@@ -1,5 +1,7 @@
 #include "scenarios/input/error.h"
 
+#include <fmt/format.h>
+
 #include "scenarios/input/message.h"
 
 namespace lcs::input {
@@ -9,9 +11,7 @@ namespace {
 /// "FILE:LINE: "; "" without a file.
 std::string place(const Source& where) {
   if (where.file.empty()) return "";
-  std::string text = where.file;
-  if (where.line > 0) text.append(":").append(std::to_string(where.line));
-  return text.append(": ");
+  return where.line > 0 ? fmt::format("{}:{}: ", where.file, where.line) : where.file + ": ";
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "scenarios/input/message.h"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <new>
 #include <system_error>
@@ -11,12 +11,6 @@ namespace lcs::input {
 namespace {
 
 constexpr std::size_t kLongest = 1000, kHead = 600, kTail = 300;
-
-std::string escaped(const char* format, std::uint32_t code) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), format, code);
-  return text.data();
-}
 
 /// \param bytes one UTF-8 sequence.
 std::uint32_t code_point(std::string_view bytes) {
@@ -60,15 +54,15 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     if (length == 0) {
-      shown += escaped("\\x%02x", static_cast<std::uint8_t>(text.front()));
+      shown += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(text.front()));
       text.remove_prefix(1);
       continue;
     }
     const std::uint32_t code = code_point(text.substr(0, length));
     if (is_control(code)) {
-      shown += escaped("\\x%02x", code);
+      shown += fmt::format("\\x{:02x}", code);
     } else if (is_unseen(code)) {
-      shown += escaped("\\u%04x", code);
+      shown += fmt::format("\\u{:04x}", code);
     } else {
       shown += text.substr(0, length);
     }
@@ -91,8 +85,16 @@ std::string one_line(std::string_view text) {
   std::size_t head = kHead, tail = line.size() - kTail;
   while (is_within(line[head])) --head;
   while (is_within(line[tail])) ++tail;
-  return line.substr(0, head) + " [... " + std::to_string(tail - head) + " bytes ...] " +
-         line.substr(tail);
+  return line.replace(head, tail - head, fmt::format(" [... {} bytes ...] ", tail - head));
+}
+
+std::string joined(const std::vector<std::string>& words, std::string_view last_separator) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? last_separator : std::string_view(", ");
+    text += words[i];
+  }
+  return text;
 }
 
 std::string message_of(const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lcs::input {
 
@@ -16,6 +17,9 @@ std::string printable(std::string_view text);
 /// `printable` text in one line, with tabs as `\t`. Beyond 1000 bytes it omits the middle, because
 /// messages end with the remedy.
 std::string one_line(std::string_view text);
+
+/// The words with commas in between, and another separator before the last one: "a, b or c".
+std::string joined(const std::vector<std::string>& words, std::string_view last_separator);
 
 /// An exception's message in one line. For lack of memory, file errors and other system errors it
 /// adds a remedy.

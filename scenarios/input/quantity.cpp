@@ -1,10 +1,14 @@
-#include "scenarios/input/reader.h"
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "scenarios/input/message.h"
+#include "scenarios/input/reader.h"
 
 namespace lcs::input {
 namespace {
@@ -48,61 +52,38 @@ constexpr std::array units = {
     Unit{"px", Dimension::pixels, 1, 1},
 };
 
-const Unit* base(Dimension dimension) {
-  for (const Unit& unit : units) {
-    if (unit.dimension == dimension) return &unit;
-  }
-  return nullptr;
+/// The first unit whose member has this value; null without one.
+template <class Member>
+const Unit* find(Member Unit::*member, const Member& value) {
+  const auto found = std::ranges::find(units, value, member);
+  return found == units.end() ? nullptr : &*found;
 }
 
-const Unit* find(std::string_view name) {
-  for (const Unit& unit : units) {
-    if (unit.name == name) return &unit;
-  }
-  return nullptr;
+const Unit* base(Dimension dimension) {
+  return find(&Unit::dimension, dimension);
 }
 
 /// A dimension as cited in messages: "a speed".
 std::string_view noun(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::number:
-      return "a number without a unit";
-    case Dimension::length:
-      return "a length";
-    case Dimension::time:
-      return "a time";
-    case Dimension::speed:
-      return "a speed";
-    case Dimension::acceleration:
-      return "an acceleration";
-    case Dimension::frequency:
-      return "a frequency";
-    case Dimension::angle:
-      return "an angle";
-    case Dimension::angular_rate:
-      return "an angular rate";
-    case Dimension::illuminance:
-      return "an illuminance";
-    case Dimension::intensity:
-      return "a luminous intensity";
-    case Dimension::pixels:
-      return "a number of pixels";
-  }
-  return "";
+  // in the order of `Dimension`
+  constexpr std::string_view kNouns[] = {"a number without a unit",
+                                         "a length",
+                                         "a time",
+                                         "a speed",
+                                         "an acceleration",
+                                         "a frequency",
+                                         "an angle",
+                                         "an angular rate",
+                                         "an illuminance",
+                                         "a luminous intensity",
+                                         "a number of pixels"};
+  return kNouns[static_cast<std::size_t>(dimension)];
 }
 
 /// "give a speed in m/s, cm/s, mm/s or km/h"
 std::string remedy(Dimension dimension) {
-  std::string text = "give " + std::string(noun(dimension));
-  std::string_view separator = " in ";
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    if (units[i].dimension != dimension) continue;
-    const bool last = i + 1 == units.size() || units[i + 1].dimension != dimension;
-    if (last && separator == ", ") separator = " or ";
-    text.append(separator).append(units[i].name);
-    separator = ", ";
-  }
-  return text;
+  const std::string in = joined(units_of(dimension), " or ");
+  return fmt::format("give {}{}{}", noun(dimension), in.empty() ? "" : " in ", in);
 }
 
 std::string_view trim(std::string_view text) {
@@ -113,8 +94,7 @@ std::string_view trim(std::string_view text) {
 }
 
 [[noreturn]] void refuse(std::string_view text, std::string_view problem, Dimension dimension) {
-  throw std::invalid_argument("'" + std::string(text) + "' " + std::string(problem) + "; " +
-                              remedy(dimension));
+  throw std::invalid_argument(fmt::format("'{}' {}; {}", text, problem, remedy(dimension)));
 }
 
 }  // namespace
@@ -141,26 +121,26 @@ double parse_quantity(std::string_view text, Dimension dimension) {
 
   const std::string_view name = trim({rest, static_cast<std::size_t>(end - rest)});
   if (name.empty()) return to_si(number, dimension);
-  const Unit* unit = find(name);
-  if (!unit) refuse(text, "has the unknown unit '" + std::string(name) + "'", dimension);
+  const Unit* unit = find(&Unit::name, name);
+  if (!unit) refuse(text, fmt::format("has the unknown unit '{}'", name), dimension);
   if (unit->dimension != dimension) {
-    refuse(text, "is " + std::string(noun(unit->dimension)), dimension);
+    refuse(text, fmt::format("is {}", noun(unit->dimension)), dimension);
   }
   const double si = number * unit->numerator / unit->denominator;
   if (!std::isfinite(si)) refuse(text, "does not fit a double", dimension);
   return si;
 }
 
-std::vector<std::string_view> units_of(Dimension dimension) {
-  std::vector<std::string_view> names;
+std::vector<std::string> units_of(Dimension dimension) {
+  std::vector<std::string> names;
   for (const Unit& unit : units) {
-    if (unit.dimension == dimension) names.push_back(unit.name);
+    if (unit.dimension == dimension) names.emplace_back(unit.name);
   }
   return names;
 }
 
 std::string quantity_text(double si, Dimension dimension, std::string_view unit) {
-  const Unit* in = unit.empty() ? base(dimension) : find(unit);
+  const Unit* in = unit.empty() ? base(dimension) : find(&Unit::name, unit);
   const double number = in ? si * in->denominator / in->numerator : si;
   std::array<char, 64> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scenarios/input/message.h"
 #include "scenarios/input/spelling.h"
 
 namespace lcs::input {
@@ -12,15 +13,6 @@ namespace {
 
 std::string quote(std::string_view text) {
   return std::string("'").append(text).append("'");
-}
-
-std::string joined(const std::vector<std::string>& words, std::string_view last_separator) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? last_separator : std::string_view(", ");
-    text += words[i];
-  }
-  return text;
 }
 
 /// "did you mean 'speed'?", or the list of all known words.
@@ -32,8 +24,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 void require_scalar(const Value& value, const std::string& path, std::string_view wanted) {
   if (value.kind == Value::Kind::scalar) return;
-  throw Error(value.where,
-              path + " is " + std::string(kind_name(value.kind)) + "; give " + std::string(wanted));
+  throw Error(value.where, "{} is {}; give {}", path, kind_name(value.kind), wanted);
 }
 
 /// \param other alternative, for the message, for example " or auto"; "" without one.
@@ -122,12 +113,10 @@ const std::vector<Value>& as_list(const Value& value, const std::string& path,
                                         joined(std::vector<std::string>(*size, "0"), ", ") + "]"
                                   : std::string("a list, as in [...]");
   if (value.kind != Value::Kind::list) {
-    throw Error(value.where,
-                path + " is " + std::string(kind_name(value.kind)) + "; give " + wanted);
+    throw Error(value.where, "{} is {}; give {}", path, kind_name(value.kind), wanted);
   }
   if (size && value.items.size() != *size) {
-    throw Error(value.where,
-                path + " is a list of " + std::to_string(value.items.size()) + "; give " + wanted);
+    throw Error(value.where, "{} is a list of {}; give {}", path, value.items.size(), wanted);
   }
   return value.items;
 }
@@ -135,9 +124,8 @@ const std::vector<Value>& as_list(const Value& value, const std::string& path,
 Reader::Reader(const Value& value, std::string path) : map_(value), path_(std::move(path)) {
   if (value.kind == Value::Kind::map) return;
   const bool null = value.kind == Value::Kind::null;
-  throw Error(value.where, path_ + " is " + std::string(kind_name(value.kind)) +
-                               "; give a map, as in {key: value}" +
-                               (null ? ", or {} for its defaults" : ""));
+  throw Error(value.where, "{} is {}; give a map, as in {{key: value}}{}", path_,
+              kind_name(value.kind), null ? ", or {} for its defaults" : "");
 }
 
 std::string Reader::path_of(std::string_view key) const {
@@ -190,22 +178,19 @@ std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::str
   return std::nullopt;
 }
 
-std::optional<std::size_t> Reader::choice(std::string_view key,
-                                          const std::vector<std::string>& words) {
-  const Value* value = find(key);
-  return value ? std::optional(as_choice(*value, path_of(key), words)) : std::nullopt;
+void Reader::refuse(std::string_view key, const std::string& what) {
+  throw Error(find(key)->where, path_of(key) + what);
 }
 
 void Reader::finish() const {
   for (const Entry& entry : map_.entries) {
     if (knows(entry.key)) continue;
-    throw Error(entry.where, "unknown key '" + entry.key + "'" +
-                                 (path_.empty() ? std::string() : " in " + path_) + "; " +
-                                 suggestion(entry.key, known_));
+    throw Error(entry.where, "unknown key '{}'{}{}; {}", entry.key, path_.empty() ? "" : " in ",
+                path_, suggestion(entry.key, known_));
   }
   if (!missing_.empty()) {
-    throw Error(map_.where, (path_.empty() ? "the scenario" : path_) + " needs " +
-                                missing_.front() + "; add it (scenarios/README.md shows how)");
+    throw Error(map_.where, "{} needs {}; add it (scenarios/README.md shows how)",
+                path_.empty() ? "the scenario" : path_, missing_.front());
   }
 }
 

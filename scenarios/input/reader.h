@@ -3,13 +3,12 @@
 /// keys.
 ///
 ///     Reader reader(value, "ego");
-///     reader.read("speed", {Dimension::speed, {0, 100}}, speed_mps);  // absent: speed_mps stays
-///     reader.finish();                                                // unknown or missing keys
+///     if (const Value* at = reader.find("at")) at_s = as_quantity(*at, "ego.at", kTime);
+///     reader.finish();  // unknown or missing keys
 ///
 /// Every queried key counts as known. All functions throw `Error` with the line of the value.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -51,7 +50,7 @@ double to_si(double in_base_unit, Dimension dimension);
 double parse_quantity(std::string_view text, Dimension dimension);
 
 /// The units of a dimension, the base unit first.
-std::vector<std::string_view> units_of(Dimension dimension);
+std::vector<std::string> units_of(Dimension dimension);
 
 /// An SI value with its unit, to 12 digits, in the format of `parse_quantity`. \param unit of this
 /// dimension; "": its base unit.
@@ -115,15 +114,8 @@ class Reader {
   /// As `at_most_one_of`, but `finish` throws if all are absent.
   std::optional<std::string> exactly_one_of(std::initializer_list<std::string_view> keys);
 
-  /// Sets `out` if the key is given.
-  template <class Out>
-  requires std::assignable_from<Out&, double>
-  void read(std::string_view key, const Quantity& quantity, Out& out) {
-    if (const Value* value = find(key)) out = as_quantity(*value, path_of(key), quantity);
-  }
-
-  /// `as_choice` of the key's value; absent if the key is.
-  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words);
+  /// \throws Error at the value of a given key. \param what follows the key's path.
+  [[noreturn]] void refuse(std::string_view key, const std::string& what);
 
   /// \throws Error for a key that was not queried, or a required key that is absent.
   void finish() const;

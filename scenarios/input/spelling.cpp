@@ -1,7 +1,6 @@
 #include "scenarios/input/spelling.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace lcs::input {
 namespace {
@@ -40,11 +39,7 @@ std::size_t distance(std::string_view name, std::string_view known) {
 }  // namespace
 
 std::vector<std::string> nearest_first(std::string_view name, std::vector<std::string> names) {
-  std::vector<std::pair<std::size_t, std::string>> ranked;
-  for (std::string& known : names) ranked.emplace_back(distance(name, known), std::move(known));
-  std::ranges::stable_sort(ranked, [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::ranges::transform(ranked, names.begin(),
-                         [](auto& entry) { return std::move(entry.second); });
+  std::ranges::stable_sort(names, {}, [&](const auto& known) { return distance(name, known); });
   return names;
 }
 

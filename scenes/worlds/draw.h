@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -23,7 +23,9 @@ class Draw {
 
   double between(double low, double high) { return low + (high - low) * random_.uniform(); }
   /// Log-uniform; both limits are above 0.
-  double scaled(double low, double high);
+  double scaled(double low, double high) {
+    return low * std::exp(between(0, std::log(high / low)));
+  }
   /// Uniform integer; both limits are included.
   int whole(int low, int high) {
     return low + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(high - low + 1));
@@ -44,10 +46,6 @@ class Draw {
   template <class T>
   const T& pick(const std::vector<T>& choices) {
     return choices[static_cast<std::size_t>(whole(0, static_cast<int>(choices.size()) - 1))];
-  }
-  template <class T, std::size_t N>
-  const T& pick(const std::array<T, N>& choices) {
-    return choices[static_cast<std::size_t>(whole(0, static_cast<int>(N) - 1))];
   }
 
  private:

@@ -6,24 +6,18 @@
 namespace lcs::worlds {
 
 void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& low_m,
-             const Vector2d& high_m, double gap_m) {
+             const Vector2d& high_m) {
   constexpr int kTries = 12;
+  constexpr double kGap_m = 0.15;
   for (int i = 0; i < count; ++i) {
     const Thing thing = make_thing(kit, kit.draw.pick(kinds));
     for (int n = 0; n < kTries; ++n) {
       const double x = kit.draw.between(low_m.x(), high_m.x());
       const double y = kit.draw.between(low_m.y(), high_m.y());
       const double heading = kit.draw.between(-std::numbers::pi, std::numbers::pi);
-      const Box box = kit.box_at(thing.parts, {x, y}, heading);
-      bool inside = true;
-      for (const double a : {-1.0, 1.0}) {
-        for (const double b : {-1.0, 1.0}) {
-          const Vector2d corner = point_of(box, a, b, 0).head<2>();
-          inside = inside && (corner.array() >= low_m.array()).all() &&
-                   (corner.array() <= high_m.array()).all();
-        }
-      }
-      if (inside && kit.try_stand({thing.kind, thing.parts, {x, y}, heading, gap_m})) break;
+      const TurnedBox box = kit.box_at(thing.parts, {x, y}, heading);
+      if (!is_within(box, low_m, high_m)) continue;
+      if (kit.try_stand({thing, {x, y}, heading, kGap_m})) break;
     }
   }
 }
@@ -79,7 +73,7 @@ void maybe_strew(Kit& kit, const Vector2d& low_m, const Vector2d& high_m) {
       const double lean_x = d.between(-1, 1), lean_y = d.between(-1, 1);
       const double rise = is_grass ? d.between(0.7, 1.2) : d.between(0.1, 0.5);
       const Vector3d foot(x, y, kit.ground({x, y}));
-      const Box box{{x, y}, {1.5 * size, 1.5 * size}, 0, foot.z(), foot.z() + 2 * size};
+      const TurnedBox box{{x, y}, {1.5 * size, 1.5 * size}, 0, foot.z(), foot.z() + 2 * size};
       if (least_gap_m(box, kit.kept_free) <= 0) continue;
       chips.push_back({foot, foot + size * Vector3d(lean_x, lean_y, rise),
                        size * (is_grass ? 0.3 : d.between(0.5, 1))});

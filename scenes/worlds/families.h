@@ -23,33 +23,28 @@ struct Traffic {
   int most = 4;
 };
 
-struct Mover {
-  std::string name;
-  Parts parts;
+struct PlannedMover {
+  Thing thing;
   scenario::Trajectory trajectory;
   double start_s = 0;
   double heading_rad = 0;  ///< at rest, before it starts
 
-  Box box_at(const Kit& kit, double t_s) const;
+  TurnedBox box_at(const Kit& kit, double t_s) const;
 };
 
 /// Draws movers one by one, each clear of static things, of the rover and of other movers.
 /// \return fewer than `count` if no free path was found.
-std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic, int count);
+std::vector<PlannedMover> draw_movers(Kit& kit, const RoverPath& way, const Traffic& traffic,
+                                      int count);
 
 /// Number of the run's frames in which a mover moves and is visible, by the plan.
-int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers,
+int frames_seen(const Kit& kit, const RoverPath& way, const std::vector<PlannedMover>& movers,
                 std::size_t which);
 
 /// Adds the movers to scene and scenario, and tags the world's features that they show.
-void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers);
+void add_movers(Kit& kit, const RoverPath& way, const std::vector<PlannedMover>& movers);
 
 // ---- Standing, hanging and moving things: each consists of a few parts about its origin
-
-struct Thing {
-  std::string kind;
-  Parts parts;
-};
 
 /// A thing with random size and surfaces. \throws std::invalid_argument for an unknown kind.
 Thing make_thing(Kit& kit, const std::string& kind);
@@ -67,24 +62,24 @@ Thing hanging(Kit& kit, double ceiling_m, double foot_m);
 
 /// A returned layout already has its fixed parts; `furnish` adds those that must not block rover
 /// and movers, once their paths are known.
-struct Layout {
+struct FloorPlan {
   Lane lane;
   Traffic traffic;
   std::function<void()> furnish;
 };
 
-Layout lay_out_room(Kit& kit);
-Layout lay_out_corridor(Kit& kit);
-Layout lay_out_warehouse(Kit& kit);
-Layout lay_out_street(Kit& kit);
-Layout lay_out_yard(Kit& kit);
-Layout lay_out_garage(Kit& kit);
+FloorPlan lay_out_room(Kit& kit);
+FloorPlan lay_out_corridor(Kit& kit);
+FloorPlan lay_out_warehouse(Kit& kit);
+FloorPlan lay_out_street(Kit& kit);
+FloorPlan lay_out_yard(Kit& kit);
+FloorPlan lay_out_garage(Kit& kit);
 
 /// \name Shared by several layouts.
 ///@{
 /// Places up to `count` things at random free positions of a rectangle.
 void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& low_m,
-             const Vector2d& high_m, double gap_m = 0.15);
+             const Vector2d& high_m);
 /// A plain colour or a texture.
 int wall_surface(Kit& kit);
 int floor_surface(Kit& kit, const std::vector<Style>& styles);

@@ -25,7 +25,7 @@ Parts door(Kit& kit, int leaf, int frame) {
 
 }  // namespace
 
-Layout lay_out_corridor(Kit& kit) {
+FloorPlan lay_out_corridor(Kit& kit) {
   Draw& d = kit.draw;
   const double half_length = d.between(6, 13), half_width = d.between(0.85, 1.7);
   const double height = d.between(2.2, 3), depth = d.between(2.5, 4.5);
@@ -102,7 +102,7 @@ Layout lay_out_corridor(Kit& kit) {
              kit.wide_surface({Style::tiles, Style::concrete, Style::worn}));
   }
 
-  Layout layout;
+  FloorPlan layout;
   layout.lane = {.start_m = {x0 + 0.8, 0},
                  .length_m = half_length,
                  .half_width_m = 0.35 * half_width,
@@ -123,8 +123,7 @@ Layout lay_out_corridor(Kit& kit) {
       const double off = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
         const double side = d.sign();
-        if (kit.try_stand({thing.kind,
-                           thing.parts,
+        if (kit.try_stand({thing,
                            {d.between(-0.8, 0.95) * half_length, side * (half_width - off)},
                            side > 0 ? 0 : std::numbers::pi})) {
           break;
@@ -133,7 +132,7 @@ Layout lay_out_corridor(Kit& kit) {
     }
     for (int i = d.whole(1, 5); i > 0; --i) {
       const Thing lamp = hanging(kit, height, std::min(height - 0.3, d.between(1.8, 2.3)));
-      kit.try_stand({lamp.kind, lamp.parts, {d.between(-0.5, 0.9) * half_length, 0}, 0});
+      kit.try_stand({lamp, {d.between(-0.5, 0.9) * half_length, 0}, 0});
     }
     maybe_shadows(kit, {-half_length, -half_width}, {half_length, half_width});
   };

@@ -5,7 +5,7 @@
 
 namespace lcs::worlds {
 
-Layout lay_out_garage(Kit& kit) {
+FloorPlan lay_out_garage(Kit& kit) {
   Draw& d = kit.draw;
   const double aisle = d.between(2.4, 3.2), bay = d.between(4.6, 5.2);  // half width; depth
   const Vector2d half(d.between(9, 15), aisle + bay);
@@ -41,7 +41,7 @@ Layout lay_out_garage(Kit& kit) {
                                     {0, 0, 1.4},
                                     kit.surface({Style::lettering})}));
       }
-      kit.stand("pillar", pillar, {x, side * (aisle + 0.3)}, 0);
+      kit.stand({"pillar", pillar}, {x, side * (aisle + 0.3)}, 0);
       for (const double part : {0.0, 0.5}) {  // bay markings
         if (kit.ground({x + part * pitch, 0}) > 0) continue;
         kit.decal({x + part * pitch, side * (aisle + bay / 2 + 0.2)}, 0, {0.1, bay - 0.6}, white);
@@ -63,7 +63,7 @@ Layout lay_out_garage(Kit& kit) {
     }
   }
 
-  Layout layout;
+  FloorPlan layout;
   layout.lane = {.start_m = {-half.x() + 1, 0},
                  .length_m = half.x() * 1.1,
                  .half_width_m = 0.4 * aisle,
@@ -81,8 +81,7 @@ Layout lay_out_garage(Kit& kit) {
       for (double x = -half.x() + pitch * 0.75; x < half.x() - 1; x += pitch / 2) {
         if (!d.chance(0.6)) continue;
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand({car.kind,
-                       car.parts,
+        kit.try_stand({car,
                        {x, side * (aisle + bay / 2 + 0.3)},
                        side * (d.chance(0.5) ? 1 : -1) * std::numbers::pi / 2,
                        0.15});
@@ -95,10 +94,7 @@ Layout lay_out_garage(Kit& kit) {
         d.whole(4, 12), -inner, inner);
     for (int i = d.whole(0, 3); i > 0; --i) {
       const Thing board = hanging(kit, height, height - d.between(0.5, 0.7));
-      kit.try_stand({board.kind,
-                     board.parts,
-                     {d.between(-0.5, 0.8) * half.x(), d.between(-0.5, 0.5) * aisle},
-                     0});
+      kit.try_stand({board, {d.between(-0.5, 0.8) * half.x(), d.between(-0.5, 0.5) * aisle}, 0});
     }
     maybe_shadows(kit, {-half.x(), -aisle}, {half.x() / 2, aisle});
   };

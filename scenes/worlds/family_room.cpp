@@ -5,7 +5,7 @@
 
 namespace lcs::worlds {
 
-Layout lay_out_room(Kit& kit) {
+FloorPlan lay_out_room(Kit& kit) {
   Draw& d = kit.draw;
   const Vector2d half{d.between(2.6, 5.5), d.between(2.2, 4)};
   const double height = d.between(2.3, 3.4);
@@ -57,7 +57,7 @@ Layout lay_out_room(Kit& kit) {
              false});
   }
 
-  Layout layout;
+  FloorPlan layout;
   layout.lane = {.start_m = {-half.x() + 0.9, 0},
                  .length_m = 2 * half.x() - 2,
                  .half_width_m = half.y() * 0.45,
@@ -79,7 +79,7 @@ Layout lay_out_room(Kit& kit) {
       for (int n = 0; n < 8; ++n) {
         const int wall = d.whole(0, 3);
         const auto [at, heading] = at_wall(wall, d.between(-0.85, 0.85), depth);
-        if (kit.try_stand({thing.kind, thing.parts, at, heading})) break;
+        if (kit.try_stand({thing, at, heading})) break;
       }
     }
     const Vector2d inner = half - Vector2d(0.3, 0.3);
@@ -89,8 +89,7 @@ Layout lay_out_room(Kit& kit) {
             d.whole(3, 10), -inner, inner);
     for (int i = d.whole(0, 3); i > 0; --i) {
       const Thing lamp = hanging(kit, height, d.between(1.5, height - 0.35));
-      kit.try_stand({lamp.kind,
-                     lamp.parts,
+      kit.try_stand({lamp,
                      {d.between(-0.6, 0.6) * half.x(), d.between(-0.6, 0.6) * half.y()},
                      d.between(0, std::numbers::pi)});
     }

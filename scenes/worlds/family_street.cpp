@@ -5,7 +5,7 @@
 
 namespace lcs::worlds {
 
-Layout lay_out_street(Kit& kit) {
+FloorPlan lay_out_street(Kit& kit) {
   Draw& d = kit.draw;
   const double road = d.between(3, 4.5), pavement = d.between(1.5, 3);  // half width; one side
   const double back = -8, front = d.between(25, 45);
@@ -85,7 +85,7 @@ Layout lay_out_street(Kit& kit) {
     }
   }
 
-  Layout layout;
+  FloorPlan layout;
   const bool on_wheels = d.chance(0.3);
   layout.lane = {.start_m = {-1, d.between(-0.5, 0.5) * road},
                  .length_m = on_wheels ? 16 : std::min(flat, front - 6),
@@ -104,8 +104,7 @@ Layout lay_out_street(Kit& kit) {
     for (const double side : {-1.0, 1.0}) {
       for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand({car.kind,
-                       car.parts,
+        kit.try_stand({car,
                        {d.between(back, front), side * (road - 1.05)},
                        d.chance(0.5) ? 0 : std::numbers::pi,
                        0.4});

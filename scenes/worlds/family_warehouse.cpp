@@ -5,7 +5,7 @@
 
 namespace lcs::worlds {
 
-Layout lay_out_warehouse(Kit& kit) {
+FloorPlan lay_out_warehouse(Kit& kit) {
   Draw& d = kit.draw;
   const double aisle = d.between(1.3, 2.3);  // half width
   const double depth = d.between(0.8, 1.1), bay = d.between(2.2, 2.9), rack = d.between(2.4, 5);
@@ -31,8 +31,7 @@ Layout lay_out_warehouse(Kit& kit) {
     for (int i = 0; i < bays; ++i) {
       if (i == passage && bays > 3) continue;
       if (d.chance(0.6)) loaded = shelf(kit, {bay, depth, rack}, boards + 1, true);
-      kit.stand(loaded.kind, loaded.parts,
-                {-half.x() + margin + (i + 0.5) * (bay + 0.05), side * (aisle + depth / 2)},
+      kit.stand(loaded, {-half.x() + margin + (i + 0.5) * (bay + 0.05), side * (aisle + depth / 2)},
                 side > 0 ? 0 : std::numbers::pi);
     }
     for (int i = d.whole(0, 2); i > 0; --i) {  // lamps along the ceiling
@@ -45,7 +44,7 @@ Layout lay_out_warehouse(Kit& kit) {
     }
   }
 
-  Layout layout;
+  FloorPlan layout;
   layout.lane = {.start_m = {-half.x() + 0.8, 0},
                  .length_m = half.x() * 1.2,
                  .half_width_m = 0.4 * aisle,
@@ -67,10 +66,7 @@ Layout lay_out_warehouse(Kit& kit) {
     scatter(kit, {"pallet", "drum", "carton", "panel"}, d.whole(4, 10), -inner, inner);
     for (int i = d.whole(1, 4); i > 0; --i) {
       const Thing board = hanging(kit, height, d.between(2.0, 2.6));
-      kit.try_stand({board.kind,
-                     board.parts,
-                     {d.between(-0.6, 0.8) * half.x(), d.between(-0.8, 0.8) * aisle},
-                     0});
+      kit.try_stand({board, {d.between(-0.6, 0.8) * half.x(), d.between(-0.8, 0.8) * aisle}, 0});
     }
     maybe_shadows(kit, {-half.x(), -aisle}, {half.x(), aisle});
   };

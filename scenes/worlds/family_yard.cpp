@@ -5,7 +5,7 @@
 
 namespace lcs::worlds {
 
-Layout lay_out_yard(Kit& kit) {
+FloorPlan lay_out_yard(Kit& kit) {
   Draw& d = kit.draw;
   const Vector2d half{d.between(9, 15), d.between(6, 10)};
   kit.plainness = d.between(0.05, 0.4);
@@ -25,7 +25,7 @@ Layout lay_out_yard(Kit& kit) {
     kit.ramp(flat, half.x() + 14 - flat, 2 * half.y() + 24,
              d.between(3, 9) * std::numbers::pi / 180, grass);
   }
-  Layout layout;
+  FloorPlan layout;
   layout.lane = {.start_m = {-half.x() + 1.5, d.between(-0.2, 0.2) * half.y()},
                  .length_m = std::min(9.0, flat + half.x() - 2),
                  .half_width_m = 1.5,
@@ -33,7 +33,7 @@ Layout lay_out_yard(Kit& kit) {
                  .highest_camera_m = 1.2,
                  .is_rough = is_rough};
   if (is_rough) {
-    scenario::Ground bumps;
+    scenario::RoughGround bumps;
     bumps.roughness_m = std::round(1e4 * d.scaled(0.003, 0.015)) / 1e4;
     bumps.wavelength_m = std::round(100 * d.between(0.8, 1.5)) / 100;
     bumps.centre_m = {0, 0};

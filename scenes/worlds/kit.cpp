@@ -60,12 +60,7 @@ Kit::Kit(std::string_view family, std::uint64_t seed, int attempt,
 }
 
 int Kit::plain(const Vector3d& rgb, double alpha, double emission) {
-  Material material;
-  material.rgb = rgb;
-  material.alpha = alpha;
-  material.emission = emission;
-  material.bold = false;
-  world.materials.push_back(material);
+  world.materials.push_back({.rgb = rgb, .alpha = alpha, .emission = emission, .bold = false});
   return static_cast<int>(world.materials.size()) - 1;
 }
 
@@ -138,12 +133,8 @@ double Kit::side_of(int material, double fit_m) const {
 Part Kit::mesh_part(const std::string& key, const Mesh& mesh, const Vector3d& at_m, int material) {
   const auto [found, is_new] = meshes_by_key_.emplace(key, static_cast<int>(world.meshes.size()));
   if (is_new) world.meshes.push_back(mesh);
-  Part part;
-  part.shape = Part::Shape::mesh;
-  part.position_m = at_m;
-  part.material = material;
-  part.mesh = found->second;
-  return part;
+  return {
+      .shape = Part::Shape::mesh, .position_m = at_m, .material = material, .mesh = found->second};
 }
 
 Part Kit::block(const Block& block) {
@@ -169,34 +160,28 @@ Part Kit::post(const Post& post) {
     return turned(
         {{{post.radius_m, 0}, {post.radius_m, post.height_m}}, post.foot_m, post.material});
   }
-  Part part;
-  part.shape = Part::Shape::cylinder;
-  part.size_m = {rounded(post.radius_m), rounded(post.height_m) / 2, 0};
-  part.position_m = post.foot_m + Vector3d(0, 0, post.height_m / 2);
-  part.material = post.material;
-  return part;
+  return {.shape = Part::Shape::cylinder,
+          .size_m = {rounded(post.radius_m), rounded(post.height_m) / 2, 0},
+          .position_m = post.foot_m + Vector3d(0, 0, post.height_m / 2),
+          .material = post.material};
 }
 
 Part Kit::bar(const Bar& bar) const {
   const Vector3d along = bar.to_m - bar.from_m;
-  Part part;
-  part.shape = Part::Shape::capsule;
-  part.size_m = {rounded(bar.radius_m), along.norm() / 2, 0};
-  part.position_m = (bar.from_m + bar.to_m) / 2;
-  part.rotation = sim::least_rotation(Vector3d::UnitZ(), along);
-  part.material = bar.material;
-  return part;
+  return {.shape = Part::Shape::capsule,
+          .size_m = {rounded(bar.radius_m), along.norm() / 2, 0},
+          .position_m = (bar.from_m + bar.to_m) / 2,
+          .rotation = sim::least_rotation(Vector3d::UnitZ(), along),
+          .material = bar.material};
 }
 
 Part Kit::ball(const Ball& ball) {
   const Material& m = world.materials[static_cast<std::size_t>(ball.material)];
   if (m.texture >= 0 && !m.cube) return lump({ball.radii_m, 0, ball.middle_m, ball.material});
-  Part part;
-  part.shape = Part::Shape::ellipsoid;
-  part.size_m = rounded(ball.radii_m);
-  part.position_m = ball.middle_m;
-  part.material = ball.material;
-  return part;
+  return {.shape = Part::Shape::ellipsoid,
+          .size_m = rounded(ball.radii_m),
+          .position_m = ball.middle_m,
+          .material = ball.material};
 }
 
 Part Kit::lump(const Lump& lump) {
@@ -233,8 +218,8 @@ Part Kit::chips(const std::vector<Chip>& chips, int material) {
                    Vector3d::Zero(), material);
 }
 
-Box bounds(const World& world, const Parts& parts) {
-  Box box;
+TurnedBox bounds(const DrawnWorld& world, const Parts& parts) {
+  TurnedBox box;
   box.foot_m = std::numeric_limits<double>::infinity();
   box.head_m = -box.foot_m;
   const auto add = [&](const Part& part, const Vector3d& p) {
@@ -261,23 +246,19 @@ Box bounds(const World& world, const Parts& parts) {
   return box;
 }
 
-Box Kit::box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const {
-  Box box = bounds(parts);
+TurnedBox Kit::box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const {
+  TurnedBox box = bounds(parts);
   box.centre_m = at_m;
   box.heading_rad = heading_rad;
   // the lowest ground under it, so that no part floats
   double height = ground(at_m);
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      height = std::min(height, ground(point_of(box, x, y, 0).head<2>()));
-    }
-  }
+  for (const Vector2d& corner : corners_of(box)) height = std::min(height, ground(corner));
   box.foot_m += height;
   box.head_m += height;
   return box;
 }
 
-Eigen::Quaterniond Kit::attitude(const Box& box) const {
+Eigen::Quaterniond Kit::attitude(const TurnedBox& box) const {
   constexpr double kLong_m = 0.45, kStep_m = 0.05;  // shorter things stand upright on a slope
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(box.heading_rad, Vector3d::UnitZ()));
   if (box.half_m.maxCoeff() < kLong_m) return turn;
@@ -289,12 +270,12 @@ Eigen::Quaterniond Kit::attitude(const Box& box) const {
   return sim::least_rotation(Vector3d::UnitZ(), up) * turn;
 }
 
-void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,
-                double heading_rad) {
-  const Box box = box_at(parts, at_m, heading_rad);
+void Kit::stand(const Thing& thing, const Vector2d& at_m, double heading_rad) {
+  const auto& [kind, parts] = thing;
+  const TurnedBox box = box_at(parts, at_m, heading_rad);
   const Eigen::Quaterniond rotation = attitude(box);
   const bool is_tilted = rotation.toRotationMatrix()(2, 2) < 1 - 1e-9;
-  const Box own = bounds(parts);
+  const TurnedBox own = bounds(parts);
   const double height = is_tilted ? ground(at_m) : box.foot_m - own.foot_m;
   world.bodies.push_back(
       {fmt::format("{}_{}", kind, ++names_[kind]), {at_m.x(), at_m.y(), height}, rotation, parts});
@@ -310,17 +291,17 @@ bool Kit::is_bare(const Parts& parts) const {
 }
 
 bool Kit::try_stand(const Standing& standing) {
-  const auto& [kind, parts, at_m, heading_rad, gap] = standing;
-  const Box box = box_at(parts, at_m, heading_rad);
+  const auto& [thing, at_m, heading_rad, gap] = standing;
+  const TurnedBox box = box_at(thing.parts, at_m, heading_rad);
   if (least_gap_m(box, solids) < gap || least_gap_m(box, kept_free) < gap) return false;
-  stand(kind, parts, at_m, heading_rad);
+  stand(thing, at_m, heading_rad);
   return true;
 }
 
 void Kit::fix(const Fixture& fixture) {
   const auto& [parts, at_m, heading_rad, in_the_way] = fixture;
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ()));
-  const Box box = box_at(parts, at_m, heading_rad);
+  const TurnedBox box = box_at(parts, at_m, heading_rad);
   const Vector3d at(at_m.x(), at_m.y(), box.foot_m - bounds(parts).foot_m);
   for (Part part : parts) {
     part.position_m = turn * part.position_m + at;
@@ -342,12 +323,10 @@ void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, in
 }
 
 void Kit::floor(int material, const Vector2d& half_m) {
-  Part part;
-  part.shape = Part::Shape::plane;
-  part.size_m = {half_m.x(), half_m.y(), 0.1};
-  part.material = material;
-  part.is_solid = true;
-  world.setting.push_back(part);
+  world.setting.push_back({.shape = Part::Shape::plane,
+                           .size_m = {half_m.x(), half_m.y(), 0.1},
+                           .material = material,
+                           .is_solid = true});
 }
 
 void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material) {

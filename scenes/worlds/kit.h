@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -20,7 +21,7 @@ namespace lcs::worlds {
 // ---- Geometry of the plan view: overlaps, gaps and occlusions
 
 /// An upright box, rotated by its heading.
-struct Box {
+struct TurnedBox {
   Vector2d centre_m = Vector2d::Zero();
   Vector2d half_m = Vector2d::Zero();  ///< along its heading, and across
   double heading_rad = 0;
@@ -29,16 +30,21 @@ struct Box {
 
 /// Horizontal distance of two boxes: at most the true one, and below 0 for an overlap. Infinite
 /// for boxes one above the other.
-double gap_m(const Box& a, const Box& b);
+double gap_m(const TurnedBox& a, const TurnedBox& b);
 
 /// Whether the line segment intersects the box.
-bool is_between(const Box& box, const Vector3d& from_m, const Vector3d& to_m);
+bool is_between(const TurnedBox& box, const Vector3d& from_m, const Vector3d& to_m);
 
 /// The point at these fractions, from -1 to 1, of a box's half sizes.
-Vector3d point_of(const Box& box, double ahead, double left, double up);
+Vector3d point_of(const TurnedBox& box, double ahead, double left, double up);
+
+/// The corners of a box, seen from above.
+std::array<Vector2d, 4> corners_of(const TurnedBox& box);
+/// Whether all of a box lies, seen from above, between these corners.
+bool is_within(const TurnedBox& box, const Vector2d& low_m, const Vector2d& high_m);
 
 /// Least gap to any of the boxes; infinite without boxes.
-double least_gap_m(const Box& box, const std::vector<Box>& others);
+double least_gap_m(const TurnedBox& box, const std::vector<TurnedBox>& others);
 
 inline Vector2d towards(double heading_rad) {
   return {std::cos(heading_rad), std::sin(heading_rad)};
@@ -52,8 +58,13 @@ inline Vector2d turned(const Vector2d& v, double by_rad) {
 
 using Parts = std::vector<Part>;
 
+struct Thing {
+  std::string kind;
+  Parts parts;
+};
+
 /// The bounding box of some parts of a world, symmetric about their origin.
-Box bounds(const World& world, const Parts& parts);
+TurnedBox bounds(const DrawnWorld& world, const Parts& parts);
 
 class Kit {
  public:
@@ -61,9 +72,9 @@ class Kit {
   Kit(std::string_view family, std::uint64_t seed, int attempt, std::vector<std::string> pictures);
 
   Draw draw;
-  World world;
-  std::vector<Box> solids;     ///< all standing and hanging things
-  std::vector<Box> kept_free;  ///< paths of the rover and the movers
+  DrawnWorld world;
+  std::vector<TurnedBox> solids;     ///< all standing and hanging things
+  std::vector<TurnedBox> kept_free;  ///< paths of the rover and the movers
   /// Height of the ground.
   std::function<double(const Vector2d&)> ground = [](const auto&) { return 0.0; };
   double ceiling_m = 100;  ///< its height; large without a ceiling
@@ -135,20 +146,19 @@ class Kit {
   Part chips(const std::vector<Chip>& chips, int material);
   ///@}
 
-  Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
+  TurnedBox bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
   /// The bounding box of parts that are placed as a body.
-  Box box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const;
+  TurnedBox box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const;
   /// The attitude of a box placed there: upright or, if it is long, along the ground's slope.
-  Eigen::Quaterniond attitude(const Box& box) const;
+  Eigen::Quaterniond attitude(const TurnedBox& box) const;
 
   /// Whether it has no texture with corners.
   bool is_bare(const Parts& parts) const;
 
-  /// Places an object, even where it overlaps others; its new name begins with `kind`.
-  void stand(const std::string& kind, const Parts& parts, const Vector2d& at_m, double heading_rad);
+  /// Places an object, even where it overlaps others; its new name begins with its kind.
+  void stand(const Thing& thing, const Vector2d& at_m, double heading_rad);
   struct Standing {
-    std::string kind;
-    Parts parts;
+    Thing thing;
     Vector2d at_m;
     double heading_rad;
     double gap_m = 0.05;

@@ -34,7 +34,7 @@ struct Meeting {
 
 class Planner {
  public:
-  Planner(Kit& kit, const Way& way, const Traffic& traffic)
+  Planner(Kit& kit, const RoverPath& way, const Traffic& traffic)
       : kit_(kit), d_(kit.draw), s_(kit.world.scenario), way_(way), traffic_(traffic) {
     fovx_ =
         2 * std::atan(std::tan(s_.camera.fovy_rad / 2) * s_.camera.width_px / s_.camera.height_px);
@@ -42,8 +42,8 @@ class Planner {
   }
 
   /// Plans one candidate; the caller checks that it is free and visible.
-  bool plan(Mover& mover) {
-    const Box box = kit_.bounds(mover.parts);
+  bool plan(PlannedMover& mover) {
+    const TurnedBox box = kit_.bounds(mover.thing.parts);
     const double radius = box.half_m.norm();
     const Meeting meeting = meet(radius);
     const Stand& rover = way_.frames[meeting.frame];
@@ -85,7 +85,7 @@ class Planner {
     return plan_straight(mover, meeting, box, heading, speed, path == Path::shuttle);
   }
 
-  bool is_free(const Mover& mover, const std::vector<Mover>& others) const {
+  bool is_free(const PlannedMover& mover, const std::vector<PlannedMover>& others) const {
     const std::size_t last = way_.frames.size() - 1;
     for (std::size_t k = 0; k <= 4 * last; ++k) {
       const Stand& before = way_.frames[k / 4];
@@ -94,10 +94,10 @@ class Planner {
       const double t = before.t_s + share * (after.t_s - before.t_s);
       const Stand rover{t, before.at_m + share * (after.at_m - before.at_m),
                         before.heading_rad + share * (after.heading_rad - before.heading_rad)};
-      const Box box = mover.box_at(kit_, t);
+      const TurnedBox box = mover.box_at(kit_, t);
       if (gap_m(box, way_.box_of(s_.camera, rover)) < kRoverGap_m) return false;
       if (least_gap_m(box, kit_.solids) < 0.02) return false;
-      for (const Mover& other : others) {
+      for (const PlannedMover& other : others) {
         if (gap_m(box, other.box_at(kit_, t)) < kGap_m) return false;
       }
     }
@@ -126,36 +126,21 @@ class Planner {
     return m;
   }
 
-  bool is_inside(const Box& box) const {
-    for (const double x : {-1.0, 1.0}) {
-      for (const double y : {-1.0, 1.0}) {
-        const Vector2d corner = point_of(box, x, y, 0).head<2>();
-        if ((corner.array() < traffic_.low_m.array()).any() ||
-            (corner.array() > traffic_.high_m.array()).any()) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  bool may_be(Box box, const Vector2d& at, double level) const {
+  bool may_be(TurnedBox box, const Vector2d& at, double level) const {
     if (std::abs(kit_.ground(at) - level) > 0.02) return false;  // movers keep their height
     box.centre_m = at;
-    for (const double x : {-1.0, 1.0}) {
-      for (const double y : {-1.0, 1.0}) {
-        const Vector2d corner = point_of(box, x, y, 0).head<2>();
-        const double above = kit_.ground(corner) - level;  // it would sink into a slope
-        if (above > 0.005 || above < -0.06) return false;
-      }
+    for (const Vector2d& corner : corners_of(box)) {
+      const double above = kit_.ground(corner) - level;  // it would sink into a slope
+      if (above > 0.005 || above < -0.06) return false;
     }
     box.foot_m += level;
     box.head_m += level;
-    return is_inside(box) && least_gap_m(box, kit_.solids) > kGap_m;
+    return is_within(box, traffic_.low_m, traffic_.high_m) &&
+           least_gap_m(box, kit_.solids) > kGap_m;
   }
 
   /// Length of the free path from the meeting, at most `most_m`.
-  double free_way(const Box& box, const Vector2d& from, double heading, double most_m) const {
+  double free_way(const TurnedBox& box, const Vector2d& from, double heading, double most_m) const {
     constexpr double kStep_m = 0.1;
     const double level = kit_.ground(from);
     double way = 0;
@@ -167,8 +152,8 @@ class Planner {
   }
 
   /// Plans a straight free path through the meeting; the mover rests before and after it.
-  bool plan_straight(Mover& mover, const Meeting& meeting, Box box, double heading, double speed,
-                     bool back_and_forth) {
+  bool plan_straight(PlannedMover& mover, const Meeting& meeting, TurnedBox box, double heading,
+                     double speed, bool back_and_forth) {
     box.heading_rad = heading;
     if (!may_be(box, meeting.at_m, kit_.ground(meeting.at_m))) return false;
     const double t = way_.frames[meeting.frame].t_s;
@@ -203,7 +188,8 @@ class Planner {
     return true;
   }
 
-  bool plan_circle(Mover& mover, const Meeting& meeting, const Box& box, double speed) {
+  bool plan_circle(PlannedMover& mover, const Meeting& meeting, const TurnedBox& box,
+                   double speed) {
     constexpr double kInwards_mps2 = 1.5;  // greatest lateral acceleration without tipping
     const double radius = to_cm(d_.between(0.5, std::min(3.0, 0.5 * meeting.distance_m + 0.5)));
     speed = std::min(speed, std::sqrt(kInwards_mps2 * radius));
@@ -211,7 +197,7 @@ class Planner {
     const Vector2d centre = to_cm(meeting.at_m - radius * towards(angle));
     const double level = kit_.ground(centre);
     for (int i = 0; i < 24; ++i) {
-      Box there = box;
+      TurnedBox there = box;
       there.heading_rad = 2 * std::numbers::pi * i / 24 + std::numbers::pi / 2;
       if (!may_be(there, centre + radius * towards(2 * std::numbers::pi * i / 24), level))
         return false;
@@ -228,7 +214,7 @@ class Planner {
   Kit& kit_;
   Draw& d_;
   const scenario::Scenario& s_;
-  const Way& way_;
+  const RoverPath& way_;
   const Traffic& traffic_;
   double fovx_ = 1, focal_px_ = 1;
 };
@@ -241,7 +227,8 @@ struct Sight {
 
 constexpr int kLeastPoints = 5;
 
-Sight look(const Kit& kit, const Stand& stand, const Box& box, const std::vector<Box>& others) {
+Sight look(const Kit& kit, const Stand& stand, const TurnedBox& box,
+           const std::vector<TurnedBox>& others) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   const double level = kit.ground(stand.at_m);
   const Vector3d eye = camera_at(camera, stand, level);
@@ -260,7 +247,7 @@ Sight look(const Kit& kit, const Stand& stand, const Box& box, const std::vector
             seen.y() >= camera.height_px) {
           continue;
         }
-        const auto hides = [&](const Box& other) { return is_between(other, eye, point); };
+        const auto hides = [&](const TurnedBox& other) { return is_between(other, eye, point); };
         if (std::ranges::any_of(kit.solids, hides)) continue;
         if (std::ranges::any_of(others, hides)) {
           sight.before = true;
@@ -273,9 +260,9 @@ Sight look(const Kit& kit, const Stand& stand, const Box& box, const std::vector
   return sight;
 }
 
-std::vector<Box> boxes_of_others(const Kit& kit, const std::vector<Mover>& movers,
-                                 std::size_t which, double t_s) {
-  std::vector<Box> boxes;
+std::vector<TurnedBox> boxes_of_others(const Kit& kit, const std::vector<PlannedMover>& movers,
+                                       std::size_t which, double t_s) {
+  std::vector<TurnedBox> boxes;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     if (i != which) boxes.push_back(movers[i].box_at(kit, t_s));
   }
@@ -288,19 +275,19 @@ bool is_seen(const Sight& sight) {
 
 }  // namespace
 
-Box Mover::box_at(const Kit& kit, double t_s) const {
+TurnedBox PlannedMover::box_at(const Kit& kit, double t_s) const {
   const sim::PlanarPose pose =
       sim::pose_on(trajectory, {Vector2d::Zero(), heading_rad}, t_s - start_s);
-  return kit.box_at(parts, pose.position_m, pose.heading_rad);
+  return kit.box_at(thing.parts, pose.position_m, pose.heading_rad);
 }
 
-int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers,
+int frames_seen(const Kit& kit, const RoverPath& way, const std::vector<PlannedMover>& movers,
                 std::size_t which) {
   int frames = 0;
   for (std::size_t k = 0; k + 1 < way.frames.size(); ++k) {
     const Stand& stand = way.frames[k];
-    const Box now = movers[which].box_at(kit, stand.t_s);
-    const Box next = movers[which].box_at(kit, way.frames[k + 1].t_s);
+    const TurnedBox now = movers[which].box_at(kit, stand.t_s);
+    const TurnedBox next = movers[which].box_at(kit, way.frames[k + 1].t_s);
     const bool moves = (now.centre_m - next.centre_m).norm() > 1e-4;
     if (moves && is_seen(look(kit, stand, now, boxes_of_others(kit, movers, which, stand.t_s)))) {
       ++frames;
@@ -309,24 +296,22 @@ int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers
   return frames;
 }
 
-std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic, int count) {
+std::vector<PlannedMover> draw_movers(Kit& kit, const RoverPath& way, const Traffic& traffic,
+                                      int count) {
   Planner planner(kit, way, traffic);
-  std::vector<Mover> movers;
+  std::vector<PlannedMover> movers;
   while (static_cast<int>(movers.size()) < count) {
-    Mover mover;
+    PlannedMover mover;
     const bool alike = !movers.empty() && kit.draw.chance(0.3);
     if (alike) {
-      mover.parts = movers.back().parts;
-      mover.name = movers.back().name;
+      mover.thing = movers.back().thing;
     } else {
-      const Thing thing = make_thing(kit, kit.draw.pick(traffic.kinds));
-      mover.parts = thing.parts;
-      mover.name = thing.kind;
+      mover.thing = make_thing(kit, kit.draw.pick(traffic.kinds));
     }
     bool found = false;
     for (int i = 0; i < kTries && !found; ++i) {
       if (!planner.plan(mover) || !planner.is_free(mover, movers)) continue;
-      std::vector<Mover> all = movers;
+      std::vector<PlannedMover> all = movers;
       all.push_back(mover);
       found = true;
       for (std::size_t m = 0; m < all.size(); ++m) {
@@ -340,28 +325,29 @@ std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic,
   return movers;
 }
 
-void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
+void add_movers(Kit& kit, const RoverPath& way, const std::vector<PlannedMover>& movers) {
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    const Mover& mover = movers[i];
-    const Box first = mover.box_at(kit, 0);
+    const PlannedMover& mover = movers[i];
+    const TurnedBox first = mover.box_at(kit, 0);
     scenario::Actor actor;
-    actor.name = fmt::format("mover_{}_{}", i + 1, mover.name);
+    actor.name = fmt::format("mover_{}_{}", i + 1, mover.thing.kind);
     actor.body = actor.name;
     actor.trajectory = mover.trajectory;
     actor.start.at_s = mover.start_s;
     kit.world.scenario.actors.push_back(actor);
     kit.world.bodies.push_back(
         {actor.name,
-         {first.centre_m.x(), first.centre_m.y(), first.foot_m - kit.bounds(mover.parts).foot_m},
+         {first.centre_m.x(), first.centre_m.y(),
+          first.foot_m - kit.bounds(mover.thing.parts).foot_m},
          Eigen::Quaterniond(Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
-         mover.parts});
-    if (kit.is_bare(mover.parts)) kit.tag("plain_mover");
+         mover.thing.parts});
+    if (kit.is_bare(mover.thing.parts)) kit.tag("plain_mover");
     const bool is_mesh = std::ranges::any_of(
-        mover.parts, [](const Part& part) { return part.shape == Part::Shape::mesh; });
+        mover.thing.parts, [](const Part& part) { return part.shape == Part::Shape::mesh; });
     kit.tag(is_mesh ? "mover_of_meshes" : "mover_of_primitives");
     const scenario::Camera& camera = kit.world.scenario.camera;
     for (const Stand& stand : way.frames) {
-      const Box box = mover.box_at(kit, stand.t_s);
+      const TurnedBox box = mover.box_at(kit, stand.t_s);
       const Sight sight = look(kit, stand, box, boxes_of_others(kit, movers, i, stand.t_s));
       if (sight.before && sight.points > 0) kit.tag("mover_before_mover");
       if (!is_seen(sight)) continue;

@@ -1,9 +1,10 @@
 #include "scenes/worlds/rover.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "scenarios/imu_presets.h"
 #include "sim/base/pose.h"
@@ -24,23 +25,11 @@ void draw_camera(Kit& kit, const Lane& lane) {
   Draw& d = kit.draw;
   scenario::Camera& camera = kit.world.scenario.camera;
   // most are small, so that a whole split runs in minutes
-  constexpr std::array<std::array<int, 2>, 13> kSizes{{{320, 240},
-                                                       {320, 240},
-                                                       {424, 240},
-                                                       {400, 300},
-                                                       {480, 360},
-                                                       {512, 384},
-                                                       {640, 360},
-                                                       {640, 400},
-                                                       {640, 480},
-                                                       {640, 480},
-                                                       {752, 480},
-                                                       {848, 480},
-                                                       {1280, 720}}};
-  const auto& size = d.pick(kSizes);
-  camera.width_px = size[0];
-  camera.height_px = size[1];
-  const double shape = static_cast<double>(size[1]) / size[0];
+  static const std::vector<std::pair<int, int>> kSizes{
+      {320, 240}, {320, 240}, {424, 240}, {400, 300}, {480, 360}, {512, 384}, {640, 360},
+      {640, 400}, {640, 480}, {640, 480}, {752, 480}, {848, 480}, {1280, 720}};
+  std::tie(camera.width_px, camera.height_px) = d.pick(kSizes);
+  const double shape = static_cast<double>(camera.height_px) / camera.width_px;
   const double fovx = d.between(45, 100) * kDegree;
   camera.fovy_rad = to(2 * std::atan(std::tan(fovx / 2) * shape), 0.1 * kDegree);
   camera.rate_hz = d.pick({3, 4, 5, 6, 8, 10, 10, 12, 15, 20, 25, 30});
@@ -129,7 +118,7 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
 
 bool stays_in(const std::vector<Stand>& frames, const Lane& lane) {
   return std::ranges::all_of(frames, [&](const Stand& stand) {
-    const Vector2d in_lane = turned(stand.at_m - lane.start_m, -lane.heading_rad);
+    const Vector2d in_lane = stand.at_m - lane.start_m;
     return in_lane.x() >= -0.05 && in_lane.x() <= lane.length_m &&
            std::abs(in_lane.y()) <= lane.half_width_m;
   });
@@ -137,7 +126,7 @@ bool stays_in(const std::vector<Stand>& frames, const Lane& lane) {
 
 }  // namespace
 
-Box Way::box_of(const scenario::Camera& camera, const Stand& stand) const {
+TurnedBox RoverPath::box_of(const scenario::Camera& camera, const Stand& stand) const {
   return {.centre_m = stand.at_m,
           .half_m = {0.27, 0.22},
           .heading_rad = stand.heading_rad,
@@ -145,9 +134,9 @@ Box Way::box_of(const scenario::Camera& camera, const Stand& stand) const {
           .head_m = std::max(0.45, camera.mount_position_m.z() + 0.12)};
 }
 
-Way way_of(const scenario::Scenario& s) {
+RoverPath way_of(const scenario::Scenario& s) {
   sim::SmoothCommand command(s.ego.phases);
-  Way way;
+  RoverPath way;
   Stand now{0, s.ego.start_m, s.ego.heading_rad};
   std::int64_t steps = 0;
   for (int k = 0; k <= s.frames; ++k) {
@@ -163,7 +152,7 @@ Way way_of(const scenario::Scenario& s) {
   return way;
 }
 
-Way draw_rover(Kit& kit, const Lane& lane) {
+RoverPath draw_rover(Kit& kit, const Lane& lane) {
   Draw& d = kit.draw;
   scenario::Scenario& s = kit.world.scenario;
   draw_camera(kit, lane);
@@ -180,13 +169,13 @@ Way draw_rover(Kit& kit, const Lane& lane) {
   // it needs free lane behind it if it drives backwards, and beside it if sideways
   const double direction = s.ego.phases.front().direction_rad;
   const bool backwards = std::abs(direction) > 100 * kDegree;
-  s.ego.heading_rad = to(lane.heading_rad / kDegree + d.between(-8, 8), 0.1) * kDegree;
+  s.ego.heading_rad = to(d.between(-8, 8), 0.1) * kDegree;
   const double along = backwards ? 0.5 * lane.length_m : 0;
   const double across = kind == Kind::aside ? -0.6 * lane.half_width_m * std::sin(direction)
                                             : lane.half_width_m * d.between(-0.4, 0.4);
-  const Vector2d start = lane.start_m + turned({along, across}, lane.heading_rad);
+  const Vector2d start = lane.start_m + Vector2d(along, across);
   s.ego.start_m = {to(start.x(), 0.01), to(start.y(), 0.01)};
-  Way way;
+  RoverPath way;
   for (;;) {  // reduces the speed until it stays in its lane
     for (EgoPhase& phase : s.ego.phases) {
       phase.at_s = to(phase.at_s, 0.01);

@@ -8,10 +8,9 @@
 
 namespace lcs::worlds {
 
-/// The rover's free lane: from `start_m` along `heading_rad`, with length and half width.
+/// The rover's free lane: from `start_m` along x, with length and half width.
 struct Lane {
   Vector2d start_m = Vector2d::Zero();
-  double heading_rad = 0;
   double length_m = 5;
   double half_width_m = 1;
   double fastest_mps = 1.5;
@@ -27,16 +26,16 @@ struct Stand {
 };
 
 /// The rover's path through its lane, from the commands.
-struct Way {
+struct RoverPath {
   std::vector<Stand> frames;  ///< one for each frame
-  Box box_of(const scenario::Camera& camera, const Stand& stand) const;
+  TurnedBox box_of(const scenario::Camera& camera, const Stand& stand) const;
 };
 
 /// The path of the commands, with the simulator's smoothing.
-Way way_of(const scenario::Scenario& scenario);
+RoverPath way_of(const scenario::Scenario& scenario);
 
 /// Draws camera, sensors and commands of the world's scenario.
-Way draw_rover(Kit& kit, const Lane& lane);
+RoverPath draw_rover(Kit& kit, const Lane& lane);
 
 /// Projects a point into the camera at a stand: x and y in pixels and its depth in metres, which
 /// may be negative.

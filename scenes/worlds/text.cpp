@@ -34,42 +34,27 @@ std::string rotation_text(const Eigen::Quaterniond& q) {
   return fmt::format(" quat=\"{:.6f} {:.6f} {:.6f} {:.6f}\"", q.w(), q.x(), q.y(), q.z());
 }
 
-std::string geom_text(const World& world, const Part& part) {
-  std::string shape;
-  switch (part.shape) {
-    case Part::Shape::box:
-      shape = fmt::format("type=\"box\" size=\"{}\"", numbers(part.size_m));
-      break;
-    case Part::Shape::ellipsoid:
-      shape = fmt::format("type=\"ellipsoid\" size=\"{}\"", numbers(part.size_m));
-      break;
-    case Part::Shape::cylinder:
-      shape =
-          fmt::format("type=\"cylinder\" size=\"{}\"", numbers(part.size_m.x(), part.size_m.y()));
-      break;
-    case Part::Shape::capsule:
-      shape =
-          fmt::format("type=\"capsule\" size=\"{}\"", numbers(part.size_m.x(), part.size_m.y()));
-      break;
-    case Part::Shape::plane:
-      shape = fmt::format("type=\"plane\" size=\"{}\"", numbers(part.size_m));
-      break;
-    case Part::Shape::mesh:
-      shape = fmt::format("type=\"mesh\" mesh=\"mesh_{}\"", part.mesh);
-      break;
-  }
+std::string geom_text(const DrawnWorld& world, const Part& part) {
+  using enum Part::Shape;
+  constexpr std::array kTypes{"box", "cylinder", "capsule", "ellipsoid", "plane", "mesh"};
+  const bool is_round = part.shape == cylinder || part.shape == capsule;
+  const std::string size =
+      is_round ? numbers(part.size_m.x(), part.size_m.y()) : numbers(part.size_m);
+  const std::string form = part.shape == mesh ? fmt::format("mesh=\"mesh_{}\"", part.mesh)
+                                              : fmt::format("size=\"{}\"", size);
   const std::string place =
       part.position_m.isZero() ? "" : fmt::format(" pos=\"{}\"", numbers(part.position_m));
   const Material& material = world.materials[static_cast<std::size_t>(part.material)];
-  const bool is_tiled = part.shape != Part::Shape::mesh && material.texture >= 0 && !material.cube;
-  return fmt::format("<geom {}{}{}{} material=\"{}_{}\"/>\n",
-                     part.is_solid ? "class=\"solid\" " : "", shape, place,
+  const bool is_tiled = part.shape != mesh && material.texture >= 0 && !material.cube;
+  return fmt::format("<geom {}type=\"{}\" {}{}{} material=\"{}_{}\"/>\n",
+                     part.is_solid ? "class=\"solid\" " : "",
+                     kTypes[static_cast<std::size_t>(part.shape)], form, place,
                      rotation_text(part.rotation), is_tiled ? "tiled" : "material", part.material);
 }
 
 }  // namespace
 
-std::string scene_text(const World& world) {
+std::string scene_text(const DrawnWorld& world) {
   std::string text = fmt::format("<mujoco model=\"{}\">\n", name_of(world));
   text += fmt::format("  <custom>\n    <text name=\"{}\" data=\"{} {}\"/>\n  </custom>\n",
                       scenario::kOriginText, world.family, world.seed);
@@ -117,12 +102,12 @@ std::string scene_text(const World& world) {
     text += fmt::format("    <mesh name=\"mesh_{0}\" file=\"mesh_{0}.obj\"/>\n", i);
   }
   text += "  </asset>\n  <worldbody>\n";
-  for (const char* direction : {".5 .3 -1", ".3 -.6 -.5"}) {
-    const bool first = direction[0] == '.' && direction[1] == '5';
+  for (const auto& [direction, share] :
+       {std::pair(".5 .3 -1", 1.0), std::pair(".3 -.6 -.5", 0.5)}) {
     text += fmt::format(
         "    <light directional=\"true\" dir=\"{0}\" diffuse=\"{1} {1} {1}\" ambient=\"0 0 0\" "
         "specular=\"0 0 0\" castshadow=\"false\"/>\n",
-        direction, number(world.diffuse * (first ? 1 : 0.5)));
+        direction, number(world.diffuse * share));
   }
   for (const Part& part : world.setting) text += "    " + geom_text(world, part);
   for (const Body& body : world.bodies) {
@@ -134,7 +119,7 @@ std::string scene_text(const World& world) {
   return text + "  </worldbody>\n</mujoco>\n";
 }
 
-std::string scenario_text(const World& world) {
+std::string scenario_text(const DrawnWorld& world) {
   scenario::Scenario s = world.scenario;
   s.scene = "scene.xml";
   scenario::Origin& origin = s.origin.emplace();

@@ -144,11 +144,9 @@ void paint_fractal(cv::Mat3b& p, Draw& draw) {
   const Colour dark = colour(draw, 25, 110, 16), light = colour(draw, 130, 235, 16);
   const int cells = draw.whole(3, 6);
   const cv::Mat1f noise = fractal_noise(draw, p.cols, cells, draw.between(0.55, 0.85));
-  for (int y = 0; y < p.rows; ++y) {
-    for (int x = 0; x < p.cols; ++x) {
-      p(y, x) = mixed(dark, light, std::clamp(0.5 + 0.28 * noise(y, x), 0.0, 1.0));
-    }
-  }
+  std::transform(noise.begin(), noise.end(), p.begin(), [&](float value) {
+    return mixed(dark, light, std::clamp(0.5 + 0.28 * value, 0.0, 1.0));
+  });
 }
 
 void paint_concrete(cv::Mat3b& p, Draw& draw) {
@@ -349,9 +347,8 @@ void paint_worn(cv::Mat3b& p, Draw& draw) {
   const Colour paint = colour(draw, 60, 210, 40), below = colour(draw, 40, 150, 20);
   const cv::Mat1f chips = fractal_noise(draw, side, draw.whole(3, 5), 0.7);
   const double above = draw.between(0.9, 1.9);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) p(y, x) = chips(y, x) > above ? below : paint;
-  }
+  std::transform(chips.begin(), chips.end(), p.begin(),
+                 [&](float chip) { return chip > above ? below : paint; });
   for (int i = draw.whole(5, 40); i > 0; --i) {
     const cv::Point from{draw.whole(0, side - 1), draw.whole(0, side - 1)};
     const cv::Point by{draw.whole(-side / 6, side / 6), draw.whole(-side / 12, side / 12)};
@@ -424,20 +421,14 @@ struct Painter {
   bool isotropic;
 };
 /// In the order of `Style`.
-constexpr std::array<Painter, 14> kPainters{{{"plain", paint_plain, true},
-                                             {"fractal", paint_fractal, true},
-                                             {"concrete", paint_concrete, true},
-                                             {"lettering", paint_lettering, false},
-                                             {"wood", paint_wood, false},
-                                             {"bricks", paint_bricks, false},
-                                             {"tiles", paint_tiles, false},
-                                             {"stripes", paint_stripes, false},
-                                             {"grille", paint_grille, false},
-                                             {"corrugated", paint_corrugated, false},
-                                             {"foliage", paint_foliage, true},
-                                             {"worn", paint_worn, true},
-                                             {"speckle", paint_speckle, true},
-                                             {"facade", paint_facade, false}}};
+constexpr Painter kPainters[] = {
+    {"plain", paint_plain, true},       {"fractal", paint_fractal, true},
+    {"concrete", paint_concrete, true}, {"lettering", paint_lettering, false},
+    {"wood", paint_wood, false},        {"bricks", paint_bricks, false},
+    {"tiles", paint_tiles, false},      {"stripes", paint_stripes, false},
+    {"grille", paint_grille, false},    {"corrugated", paint_corrugated, false},
+    {"foliage", paint_foliage, true},   {"worn", paint_worn, true},
+    {"speckle", paint_speckle, true},   {"facade", paint_facade, false}};
 
 const Painter& painter(Style style) {
   return kPainters[static_cast<std::size_t>(style)];
@@ -477,10 +468,8 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string extension = entry.path().extension().string();
     constexpr std::array<std::string_view, 4> kKnown{".png", ".jpg", ".jpeg", ".bmp"};
-    if (entry.is_regular_file() &&
-        std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end()) {
-      files.push_back(entry.path().string());
-    }
+    if (!entry.is_regular_file() || std::ranges::count(kKnown, extension) == 0) continue;
+    files.push_back(entry.path().string());
   }
   if (files.empty()) {
     throw std::runtime_error("there is no picture (.png, .jpg, .jpeg, .bmp) in '" + folder +

@@ -1,10 +1,11 @@
 #include "scenes/worlds/families.h"
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 
 namespace lcs::worlds {
 namespace {
@@ -487,47 +488,29 @@ Parts load(Kit& k) {
                   k.plain({0.2, 0.2, 0.2})})};
 }
 
-const std::map<std::string, std::function<Parts(Kit&)>> kThings{
-    {"drum", drum},
-    {"ball", ball},
-    {"bollard", bollard},
-    {"cone", cone},
-    {"person", person},
-    {"cart", cart},
-    {"car", car},
-    {"van", van},
-    {"table", table},
-    {"chair", chair},
-    {"cupboard", cupboard},
-    {"bin", bin},
-    {"plant", plant},
-    {"bush", bush},
-    {"tree", tree},
-    {"rock", rock},
-    {"pole", pole},
-    {"sign", sign},
-    {"lamp", lamp_post},
-    {"bench", bench},
-    {"pallet", pallet},
-    {"ladder", ladder},
-    {"statue", statue},
-    {"sack", sack},
-    {"panel", panel},
-    {"barrier", barrier},
-    {"robot", robot},
-    {"forklift", forklift},
-    {"bicycle", bicycle},
-    {"load", load},
-    {"carton",
-     [](Kit& k) {
-       const double s = k.draw.scaled(0.2, 0.8);
-       return carton(k, {s, s * k.draw.between(0.6, 1), s * k.draw.between(0.5, 1.3)}).parts;
-     }},
-    {"shelf", [](Kit& k) {
-       const Vector3d size{k.draw.between(0.7, 1.8), k.draw.between(0.28, 0.45),
-                           k.draw.between(1, 2.1)};
-       return shelf(k, size, k.draw.whole(3, 5), false).parts;
-     }}};
+Parts any_carton(Kit& k) {
+  const double s = k.draw.scaled(0.2, 0.8);
+  return carton(k, {s, s * k.draw.between(0.6, 1), s * k.draw.between(0.5, 1.3)}).parts;
+}
+
+Parts any_shelf(Kit& k) {
+  const Vector3d size{k.draw.between(0.7, 1.8), k.draw.between(0.28, 0.45), k.draw.between(1, 2.1)};
+  return shelf(k, size, k.draw.whole(3, 5), false).parts;
+}
+
+struct Kind {
+  std::string_view name;
+  Parts (*make)(Kit&);
+};
+constexpr Kind kKinds[] = {
+    {"drum", drum},       {"ball", ball},       {"bollard", bollard},   {"cone", cone},
+    {"person", person},   {"cart", cart},       {"car", car},           {"van", van},
+    {"table", table},     {"chair", chair},     {"cupboard", cupboard}, {"bin", bin},
+    {"plant", plant},     {"bush", bush},       {"tree", tree},         {"rock", rock},
+    {"pole", pole},       {"sign", sign},       {"lamp", lamp_post},    {"bench", bench},
+    {"pallet", pallet},   {"ladder", ladder},   {"statue", statue},     {"sack", sack},
+    {"panel", panel},     {"barrier", barrier}, {"robot", robot},       {"forklift", forklift},
+    {"bicycle", bicycle}, {"load", load},       {"carton", any_carton}, {"shelf", any_shelf}};
 
 }  // namespace
 
@@ -598,9 +581,9 @@ Thing hanging(Kit& kit, double ceiling_m, double foot_m) {
 }
 
 Thing make_thing(Kit& kit, const std::string& kind) {
-  const auto found = kThings.find(kind);
-  if (found == kThings.end()) throw std::invalid_argument("no thing is called '" + kind + "'");
-  return {kind, found->second(kit)};
+  const auto* const found = std::ranges::find(kKinds, kind, &Kind::name);
+  if (found == std::end(kKinds)) throw std::invalid_argument("no thing is called '" + kind + "'");
+  return {kind, found->make(kit)};
 }
 
 }  // namespace lcs::worlds

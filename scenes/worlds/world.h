@@ -52,11 +52,11 @@ struct Body {
   std::vector<Part> parts;
 };
 
-struct World {
+struct DrawnWorld {
   std::string family;
   std::uint64_t seed = 0;
   int attempt = 0;                 ///< number of rejected worlds of this seed before this one
-  std::set<std::string> features;  ///< of `all_features` (worlds.h)
+  std::set<std::string> features;  ///< that occur in it, as "slope"
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <ranges>
 #include <stdexcept>
 
 #include "scenes/worlds/families.h"
@@ -18,7 +19,7 @@ constexpr double kNear_m = 0.8;
 
 struct Family {
   const char* name;
-  Layout (*lay_out)(Kit&);
+  FloorPlan (*lay_out)(Kit&);
 };
 constexpr Family kFamilies[] = {{"room", lay_out_room},           {"corridor", lay_out_corridor},
                                 {"warehouse", lay_out_warehouse}, {"street", lay_out_street},
@@ -33,20 +34,20 @@ const Family& family_of(const std::string& name) {
 }
 
 /// Marks the paths of rover and movers as kept free, at every quarter of a frame.
-void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
+void keep_ways_free(Kit& kit, const RoverPath& way, const std::vector<PlannedMover>& movers) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   constexpr double kRoom_m = 0.1, kLeastStep_m = 0.05;
-  const auto keep = [&](Box box) {
+  const auto keep = [&](TurnedBox box) {
     box.half_m += Vector2d(kRoom_m, kRoom_m);
     kit.kept_free.push_back(box);
   };
   for (const Stand& stand : way.frames) keep(way.box_of(camera, stand));
-  for (const Mover& mover : movers) {
+  for (const PlannedMover& mover : movers) {
     Vector2d last(1e9, 0);
     for (std::size_t k = 0; k + 1 < way.frames.size(); ++k) {
       for (const double share : {0.0, 0.25, 0.5, 0.75}) {
         const double t = way.frames[k].t_s + share * (way.frames[k + 1].t_s - way.frames[k].t_s);
-        const Box box = mover.box_at(kit, t);
+        const TurnedBox box = mover.box_at(kit, t);
         if ((box.centre_m - last).norm() < kLeastStep_m) continue;
         last = box.centre_m;
         keep(box);
@@ -56,7 +57,7 @@ void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) 
 }
 
 /// Places a small thing close to the camera's path or beside it, if there is room.
-void put_near(Kit& kit, const Way& way) {
+void put_near(Kit& kit, const RoverPath& way) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   for (int i = 0; i < 40; ++i) {
     const Thing thing = make_thing(
@@ -66,18 +67,17 @@ void put_near(Kit& kit, const Way& way) {
     const Vector2d eye = camera_at(camera, stand, 0).head<2>();
     const double away = kit.draw.between(0.35, 0.65) + kit.bounds(thing.parts).half_m.x();
     const double heading = kit.draw.between(0, 3);
-    if (kit.try_stand({thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01}))
-      return;
+    if (kit.try_stand({thing, eye + away * towards(bearing), heading, 0.01})) return;
   }
 }
 
 /// Whether a static thing is visible within `kNear_m` of the camera.
-bool shows_near(const Kit& kit, const Way& way) {
+bool shows_near(const Kit& kit, const RoverPath& way) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   for (const Stand& stand : way.frames) {
     const double level = kit.ground(stand.at_m);
     const Vector3d eye = camera_at(camera, stand, level);
-    for (const Box& box : kit.solids) {
+    for (const TurnedBox& box : kit.solids) {
       if ((box.centre_m - eye.head<2>()).norm() > kNear_m + box.half_m.norm()) continue;
       for (const double x : {-0.9, 0.0, 0.9}) {
         for (const double y : {-0.9, 0.0, 0.9}) {
@@ -96,7 +96,7 @@ bool shows_near(const Kit& kit, const Way& way) {
   return false;
 }
 
-bool is_way_free(const Kit& kit, const Way& way) {
+bool is_way_free(const Kit& kit, const RoverPath& way) {
   return std::ranges::all_of(way.frames, [&](const Stand& stand) {
     return least_gap_m(way.box_of(kit.world.scenario.camera, stand), kit.solids) > 0.05;
   });
@@ -104,10 +104,10 @@ bool is_way_free(const Kit& kit, const Way& way) {
 
 /// Tries to build a world. \return whether it succeeded.
 bool attempt(Kit& kit, const Family& family, bool with_movers) {
-  const Layout layout = family.lay_out(kit);
-  const Way way = draw_rover(kit, layout.lane);
+  const FloorPlan layout = family.lay_out(kit);
+  const RoverPath way = draw_rover(kit, layout.lane);
   if (!is_way_free(kit, way)) return false;
-  std::vector<Mover> movers;
+  std::vector<PlannedMover> movers;
   if (with_movers) {
     movers = draw_movers(kit, way, layout.traffic, kit.draw.whole(1, layout.traffic.most));
     if (movers.empty()) return false;
@@ -127,54 +127,20 @@ bool attempt(Kit& kit, const Family& family, bool with_movers) {
   return true;
 }
 
-scenario::Scenario& name_scenario(World& world, const Choice& choice) {
+void name_scenario(DrawnWorld& world, const Choice& choice) {
   scenario::Scenario& s = world.scenario;
   s.name = name_of(world);
   s.purpose = fmt::format("a {} drawn from seed {}{}", world.family, world.seed,
                           s.actors.empty() ? ", where nothing moves" : "");
   s.groups = {"world", choice.family};
   if (s.actors.empty()) s.groups.emplace_back("static");
-  return s;
 }
 
 }  // namespace
 
 const std::vector<std::string>& families() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Family& family : kFamilies) all.emplace_back(family.name);
-    return all;
-  }();
-  return names;
-}
-
-const std::vector<std::string>& all_features() {
-  static const std::vector<std::string> names{"bare_thing",
-                                              "text",
-                                              "pattern",
-                                              "bare_wall",
-                                              "speckle",
-                                              "foliage",
-                                              "thin_pole",
-                                              "shelf",
-                                              "hanging",
-                                              "near",
-                                              "mover_larger_than_picture",
-                                              "mover_cut",
-                                              "mover_before_mover",
-                                              "several_alike",
-                                              "painted_shadow",
-                                              "slope",
-                                              "uneven_ground",
-                                              "told_with_error",
-                                              "jpeg",
-                                              "wheeled",
-                                              "no_odometry",
-                                              "plain_mover",
-                                              "mover_of_meshes",
-                                              "mover_of_primitives",
-                                              "mover_stops",
-                                              "mover_starts"};
+  constexpr auto kNames = kFamilies | std::views::transform(&Family::name);
+  static const std::vector<std::string> names(kNames.begin(), kNames.end());
   return names;
 }
 
@@ -211,7 +177,7 @@ bool is_static(const Choice& choice) {
   return (choice.seed + static_cast<std::uint64_t>(place - families().begin())) % 4 == 3;
 }
 
-World draw_world(const Choice& choice, const std::vector<std::string>& pictures) {
+DrawnWorld draw_world(const Choice& choice, const std::vector<std::string>& pictures) {
   const Family& family = family_of(choice.family);
   for (int n = 0; n < kMostAttempts; ++n) {
     Kit kit(choice.family, choice.seed, n, pictures);
@@ -223,7 +189,7 @@ World draw_world(const Choice& choice, const std::vector<std::string>& pictures)
                                        choice.family, choice.seed));
 }
 
-std::string name_of(const World& world) {
+std::string name_of(const DrawnWorld& world) {
   return fmt::format("{}_{}", world.family, world.seed);
 }
 

@@ -17,9 +17,6 @@ namespace lcs::worlds {
 /// "room", "corridor" and so on, in a fixed order.
 const std::vector<std::string>& families();
 
-/// All features that must occur among the worlds; each world lists its own.
-const std::vector<std::string>& all_features();
-
 /// Purpose and seeds of a split. `test` is reserved for reported figures: no choice may depend on
 /// it.
 struct Split {
@@ -52,14 +49,14 @@ bool is_static(const Choice& choice);
 /// \param pictures files used for some of the surfaces; may be empty.
 /// \throws std::invalid_argument for an unknown family, std::runtime_error for an unreadable
 /// picture.
-World draw_world(const Choice& choice, const std::vector<std::string>& pictures = {});
+DrawnWorld draw_world(const Choice& choice, const std::vector<std::string>& pictures = {});
 
 /// For example "room_7".
-std::string name_of(const World& world);
+std::string name_of(const DrawnWorld& world);
 
 /// The world as MJCF and as a scenario, which name each other's files as `lcs world` writes them.
-std::string scene_text(const World& world);
-std::string scenario_text(const World& world);
+std::string scene_text(const DrawnWorld& world);
+std::string scenario_text(const DrawnWorld& world);
 
 /// Parses a name such as "room_7", for runs and sequences older than the record of their origin;
 /// absent for any other name.

@@ -69,15 +69,13 @@ Lens lens_of(const scenario::Camera& camera) {
 }
 
 Optics::Optics(const Pinhole& camera)
-    : lens_{.fu_px = camera.focal_px,
-            .fv_px = camera.focal_px,
-            .cu_px = camera.centre_px.x(),
-            .cv_px = camera.centre_px.y(),
-            .coefficients = {},
-            .width_px = camera.width_px,
-            .height_px = camera.height_px},
-      focal_px_(camera.focal_px, camera.focal_px),
-      centre_px_(camera.centre_px) {}
+    : Optics(Lens{.fu_px = camera.focal_px,
+                  .fv_px = camera.focal_px,
+                  .cu_px = camera.centre_px.x(),
+                  .cv_px = camera.centre_px.y(),
+                  .coefficients = {},
+                  .width_px = camera.width_px,
+                  .height_px = camera.height_px}) {}
 
 Optics::Optics(const Lens& lens)
     : lens_(lens), focal_px_(lens.fu_px, lens.fv_px), centre_px_(lens.cu_px, lens.cv_px) {

@@ -1,7 +1,6 @@
 #include "sim/camera/linear_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -19,16 +18,16 @@ float linear_of(int code) {
 }
 
 struct Curve {
-  std::array<float, kCodes> linear;
+  cv::Mat1f linear = cv::Mat1f(1, kCodes);
   std::vector<std::uint8_t> code;  ///< nearest to the middle of each bin of [0, 1]
 
   Curve() : code(kBins + 1) {
-    for (int c = 0; c < kCodes; ++c) linear[static_cast<std::size_t>(c)] = linear_of(c);
-    std::size_t nearest = 0;
+    for (int c = 0; c < kCodes; ++c) linear(c) = linear_of(c);
+    int nearest = 0;
     for (int bin = 0; bin <= kBins; ++bin) {
       const float value = static_cast<float>(bin) / kBins;
       while (nearest + 1 < kCodes &&
-             std::abs(linear[nearest + 1] - value) <= std::abs(linear[nearest] - value)) {
+             std::abs(linear(nearest + 1) - value) <= std::abs(linear(nearest) - value)) {
         ++nearest;
       }
       code[static_cast<std::size_t>(bin)] = static_cast<std::uint8_t>(nearest);
@@ -44,15 +43,8 @@ const Curve& curve() {
 }  // namespace
 
 cv::Mat3f to_linear(const cv::Mat3b& picture) {
-  cv::Mat3f linear(picture.size());
-  const Curve& table = curve();
-  for (int y = 0; y < picture.rows; ++y) {
-    const cv::Vec3b* from = picture[y];
-    cv::Vec3f* to = linear[y];
-    for (int x = 0; x < picture.cols; ++x) {
-      for (int c = 0; c < 3; ++c) to[x][c] = table.linear[from[x][c]];
-    }
-  }
+  cv::Mat3f linear;
+  cv::LUT(picture, curve().linear, linear);
   return linear;
 }
 

@@ -161,26 +161,23 @@ void Rectifier::rectify(double& left, double& top, double& right, double& bottom
   bottom = y_most->y + kEdge;
 }
 
-void Rectifier::rectify(cv::Mat& picture) const {
+void Rectifier::remap(cv::Mat& picture, int interpolation, int border, double beyond) const {
   if (is_pinhole()) return;
   cv::Mat straight;
-  cv::remap(picture, straight, map_x_, map_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::remap(picture, straight, map_x_, map_y_, interpolation, border, beyond);
   picture = straight;
 }
 
+void Rectifier::rectify(cv::Mat& picture) const {
+  remap(picture, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+}
+
 void Rectifier::rectify(cv::Mat1i& ids) const {
-  if (is_pinhole() || ids.empty()) return;
-  cv::Mat1i straight;
-  cv::remap(ids, straight, map_x_, map_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, -1);
-  ids = straight;
+  if (!ids.empty()) remap(ids, cv::INTER_NEAREST, cv::BORDER_CONSTANT, -1);
 }
 
 void Rectifier::rectify(cv::Mat1f& depth_m) const {
-  if (is_pinhole()) return;
-  cv::Mat1f straight;
-  cv::remap(depth_m, straight, map_x_, map_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
-            std::numeric_limits<float>::infinity());
-  depth_m = straight;
+  remap(depth_m, cv::INTER_NEAREST, cv::BORDER_CONSTANT, std::numeric_limits<float>::infinity());
 }
 
 std::vector<ObjectTruth> Rectifier::rectified(const std::vector<ObjectTruth>& objects,

@@ -40,6 +40,7 @@ class Rectifier {
   void rectify(double& left, double& top, double& right, double& bottom) const;
 
  private:
+  void remap(cv::Mat& picture, int interpolation, int border, double beyond = 0) const;
   double covered() const;
   std::vector<cv::Point2f> straight(const std::vector<cv::Point2f>& bent) const;
   std::vector<cv::Point2f> bent(const std::vector<cv::Point2f>& straight) const;

@@ -1,25 +1,22 @@
 #include "sim/imu/imu_noise.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 namespace lcs::sim {
 namespace {
 
 double not_negative(double value, std::string_view what) {
   if (std::isfinite(value) && value >= 0) return value;
-  throw std::invalid_argument(std::string(what) + " must be finite and not negative");
+  throw std::invalid_argument(fmt::format("{} must be finite and not negative", what));
 }
 
 double positive_rate(double rate_hz) {
   if (std::isfinite(rate_hz) && rate_hz > 0) return rate_hz;
   throw std::invalid_argument("the rate of a sensor must be above 0 Hz");
-}
-
-std::string stream_name(std::string_view sensor, std::string_view part) {
-  return std::string(sensor).append(".").append(part);
 }
 
 Eigen::Vector3d normal3(RandomStream& stream) {
@@ -41,9 +38,9 @@ Noise3::Noise3(double density, double random_walk, double turn_on_bias, double r
                std::uint64_t seed, std::string_view name)
     : white_step_(not_negative(density, "a noise density") * std::sqrt(positive_rate(rate_hz))),
       walk_step_(not_negative(random_walk, "a random walk") / std::sqrt(rate_hz)),
-      white_(seed, stream_name(name, "white")),
-      walk_(seed, stream_name(name, "walk")) {
-  RandomStream turn_on(seed, stream_name(name, "turn_on"));
+      white_(seed, fmt::format("{}.white", name)),
+      walk_(seed, fmt::format("{}.walk", name)) {
+  RandomStream turn_on(seed, fmt::format("{}.turn_on", name));
   bias_ = not_negative(turn_on_bias, "a turn-on bias") * normal3(turn_on);
 }
 
@@ -57,10 +54,11 @@ ImuNoiseModel::ImuNoiseModel(const scenario::Imu& imu, std::uint64_t seed, std::
     : gyroscopes_(imu.gyroscopes),
       accelerometers_(imu.accelerometers),
       gyro_(imu.noise.gyroscope_noise_density, imu.noise.gyroscope_random_walk,
-            imu.noise.gyroscope_turn_on_bias_radps, imu.rate_hz, seed, stream_name(name, "gyro")),
+            imu.noise.gyroscope_turn_on_bias_radps, imu.rate_hz, seed,
+            fmt::format("{}.gyro", name)),
       accel_(imu.noise.accelerometer_noise_density, imu.noise.accelerometer_random_walk,
              imu.noise.accelerometer_turn_on_bias_mps2, imu.rate_hz, seed,
-             stream_name(name, "accel")) {}
+             fmt::format("{}.accel", name)) {}
 
 ImuSample ImuNoiseModel::corrupt(const ImuSample& truth) {
   const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = gyroscopes_;
@@ -81,10 +79,10 @@ OdometryNoiseModel::OdometryNoiseModel(const scenario::Odometry& odometry, std::
                                        std::string_view name)
     : noise_mps_(not_negative(odometry.noise_mps, "the odometry's noise")),
       yaw_noise_radps_(not_negative(odometry.yaw_noise_radps, "the odometry's noise of yaw")),
-      white_(seed, stream_name(name, "white")),
-      yaw_white_(seed, stream_name(name, "yaw white")),
+      white_(seed, fmt::format("{}.white", name)),
+      yaw_white_(seed, fmt::format("{}.yaw white", name)),
       scale_(1 + not_negative(odometry.scale_error, "the odometry's scale error") *
-                     RandomStream(seed, stream_name(name, "scale")).normal()) {}
+                     RandomStream(seed, fmt::format("{}.scale", name)).normal()) {}
 
 OdometrySample OdometryNoiseModel::corrupt(const OdometrySample& truth) {
   OdometrySample sample{truth.t_ns, Eigen::Vector3d::Zero()};

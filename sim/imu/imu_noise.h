@@ -79,8 +79,6 @@ class OdometryNoiseModel {
   /// The wheels measure x and y of B and the yaw rate; z is 0.
   OdometrySample corrupt(const OdometrySample& truth);
 
-  double scale() const { return scale_; }
-
  private:
   double noise_mps_;
   double yaw_noise_radps_;

@@ -120,11 +120,10 @@ void take_contacts_away(const mjSpec& spec) {
 /// numbers in it, also in a body inside another, where MuJoCo allows no free joint.
 void split_free_joints(Element& root) {
   xml::for_each(root, [&](Element& body) {
-    Element* joint = xml::is_kind(body, "body") ? body.FirstChildElement("freejoint") : nullptr;
-    if (xml::is_kind(body, "body") && !joint) {
-      joint = body.FirstChildElement("joint");
-      if (joint && xml::attribute(*joint, "type") != "free") joint = nullptr;
-    }
+    if (!xml::is_kind(body, "body")) return;
+    Element* joint = body.FirstChildElement("freejoint");
+    Element* const first = body.FirstChildElement("joint");
+    if (!joint && first && xml::attribute(*first, "type") == "free") joint = first;
     if (!joint) return;
     for (const char* key : {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}) {
       body.DeleteAttribute(key);
@@ -176,13 +175,11 @@ bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& 
         "actor '{}' has the pose '{}', which is no keyframe of its file; choose one of {}",
         actor.name, actor.pose, fmt::join(known, ", "));
   }
-  mjModel* compiled = nullptr;
-  call_mujoco([&] { compiled = mj_compile(&spec, nullptr); });
-  const std::unique_ptr<mjModel, ModelDeleter> model(compiled);
+  const std::unique_ptr<mjModel, ModelDeleter> model(
+      call_mujoco([&] { return mj_compile(&spec, nullptr); }));
   if (!model) throw reader.refusal(mjs_getError(&spec), &spec);
-  mjData* made = nullptr;
-  call_mujoco([&] { made = mj_makeData(model.get()); });
-  const std::unique_ptr<mjData, DataDeleter> data(made);
+  const std::unique_ptr<mjData, DataDeleter> data(
+      call_mujoco([&] { return mj_makeData(model.get()); }));
   if (!data) throw MujocoError("could not allocate the state of an actor");
   if (key) {
     mj_resetDataKeyframe(model.get(), data.get(),

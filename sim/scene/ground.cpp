@@ -69,7 +69,8 @@ std::string material_of_floor(const mjsBody& world) {
 
 }  // namespace
 
-void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vector2d& ego_start_m) {
+void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
+                const Eigen::Vector2d& ego_start_m) {
   mjsHField& field = *mjs_addHField(&scene);
   mjs_setName(field.element, kName);
   field.nrow = points_along(ground.size_m.y(), ground.wavelength_m);
@@ -90,7 +91,7 @@ void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vect
   if (!material.empty()) mjs_setString(geom.material, material.c_str());
 }
 
-void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed) {
+void raise_ground(Model& model, const scenario::RoughGround& ground, std::uint64_t scenario_seed) {
   mjModel& m = model.m();
   const int field = model.id(mjOBJ_HFIELD, kName);
   const int rows = m.hfield_nrow[field];

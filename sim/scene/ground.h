@@ -18,9 +18,10 @@ namespace lcs::sim {
 inline constexpr double kHighestGround = 4;
 
 /// Adds the height field, still flat, with the material of the scene's first plane.
-void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vector2d& ego_start_m);
+void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
+                const Eigen::Vector2d& ego_start_m);
 
 /// Writes the heights into a model of that scene.
-void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
+void raise_ground(Model& model, const scenario::RoughGround& ground, std::uint64_t scenario_seed);
 
 }  // namespace lcs::sim

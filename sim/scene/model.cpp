@@ -63,16 +63,12 @@ std::string take_warning() {
 
 Model::Model(mjSpec& spec) {
   install_mujoco_handlers();
-  mjModel* model = nullptr;
-  call_mujoco([&] { model = mj_compile(&spec, nullptr); });
-  model_.reset(model);
+  model_.reset(call_mujoco([&] { return mj_compile(&spec, nullptr); }));
   const std::string warning = take_warning();
   if (!model_) throw MujocoError(mjs_getError(&spec));
   if (!warning.empty()) throw MujocoError(warning);
   check_compiled(*model_);
-  mjData* data = nullptr;
-  call_mujoco([&] { data = mj_makeData(model_.get()); });
-  data_.reset(data);
+  data_.reset(call_mujoco([&] { return mj_makeData(model_.get()); }));
   if (!data_) throw MujocoError("could not allocate the state of the scene");
 }
 

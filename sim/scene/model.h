@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "sim/base/pose.h"
 #include "sim/scene/mujoco.h"
@@ -35,10 +36,16 @@ void call_mujoco(void (*calls)(const void*), const void* context);
 /// handler jumps back to this function (longjmp), which throws from its own C++ frame. MuJoCo's
 /// Python module does the same; an error outside of such calls ends the process with its message.
 /// \param calls of MuJoCo alone: the jump destroys no object that `calls` has made.
-/// \throws MujocoError with MuJoCo's message.
+/// \return its result. \throws MujocoError with MuJoCo's message.
 template <class Calls>
-void call_mujoco(const Calls& calls) {
-  call_mujoco([](const void* context) { (*static_cast<const Calls*>(context))(); }, &calls);
+auto call_mujoco(const Calls& calls) {
+  if constexpr (std::is_void_v<decltype(calls())>) {
+    call_mujoco([](const void* context) { (*static_cast<const Calls*>(context))(); }, &calls);
+  } else {
+    decltype(calls()) result{};
+    call_mujoco([&] { result = calls(); });
+    return result;
+  }
 }
 
 /// The first warning that MuJoCo gave in this thread since the last call; empty without a warning.

@@ -62,9 +62,8 @@ void make_mocap(mjSpec& scene, const Actor& actor) {
 /// Adds a fragment to the scene. \return its body `base`.
 mjsBody& attach(mjSpec& scene, const Fragment& fragment, const std::string& prefix) {
   mjsFrame* const frame = mjs_addFrame(&world_of(scene), nullptr);
-  mjsElement* added = nullptr;
-  call_mujoco(
-      [&] { added = mjs_attach(frame->element, fragment.base->element, prefix.c_str(), ""); });
+  mjsElement* const added = call_mujoco(
+      [&] { return mjs_attach(frame->element, fragment.base->element, prefix.c_str(), ""); });
   if (!added) throw MujocoError(mjs_getError(&scene));
   return *mjs_asBody(added);
 }

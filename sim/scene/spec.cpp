@@ -55,34 +55,14 @@ void prepare(Element& root, SpecReader::Part part) {
 }
 
 const mjString* info_of(mjsElement* e) {
-  switch (e->elemtype) {
-    case mjOBJ_BODY:
-      return mjs_asBody(e)->info;
-    case mjOBJ_JOINT:
-      return mjs_asJoint(e)->info;
-    case mjOBJ_GEOM:
-      return mjs_asGeom(e)->info;
-    case mjOBJ_SITE:
-      return mjs_asSite(e)->info;
-    case mjOBJ_ACTUATOR:
-      return mjs_asActuator(e)->info;
-    case mjOBJ_TENDON:
-      return mjs_asTendon(e)->info;
-    case mjOBJ_FLEX:
-      return mjs_asFlex(e)->info;
-    case mjOBJ_SKIN:
-      return mjs_asSkin(e)->info;
-    case mjOBJ_TEXTURE:
-      return mjs_asTexture(e)->info;
-    case mjOBJ_HFIELD:
-      return mjs_asHField(e)->info;
-    case mjOBJ_NUMERIC:
-      return mjs_asNumeric(e)->info;
-    case mjOBJ_TEXT:
-      return mjs_asText(e)->info;
-    default:
-      return nullptr;
-  }
+  const mjString* info = nullptr;
+  const auto take = [&](const auto*... kinds) {  // all but one are null
+    ((info = kinds ? kinds->info : info), ...);
+  };
+  take(mjs_asBody(e), mjs_asJoint(e), mjs_asGeom(e), mjs_asSite(e), mjs_asActuator(e),
+       mjs_asTendon(e), mjs_asFlex(e), mjs_asSkin(e), mjs_asTexture(e), mjs_asHField(e),
+       mjs_asNumeric(e), mjs_asText(e));
+  return info;
 }
 
 /// The first number after "line " in a text, of the innermost element; 0 without one.
@@ -186,11 +166,9 @@ Spec SpecReader::read(const std::filesystem::path& file, const input::Source& wh
   std::array<char, 2000> said{};
   Spec spec;
   try {
-    mjSpec* parsed = nullptr;
-    call_mujoco([&] {
-      parsed = mj_parseXMLString(text.c_str(), &vfs, said.data(), static_cast<int>(said.size()));
-    });
-    spec.reset(parsed);
+    spec.reset(call_mujoco([&] {
+      return mj_parseXMLString(text.c_str(), &vfs, said.data(), static_cast<int>(said.size()));
+    }));
   } catch (const MujocoError& e) {
     throw refusal(e.what(), nullptr);
   }

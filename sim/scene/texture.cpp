@@ -1,9 +1,12 @@
 #include "sim/scene/texture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <ranges>
 #include <stdexcept>
 
 namespace lcs::sim {
@@ -314,20 +317,12 @@ struct Style {
   std::string_view name;
   void (*paint)(Brush&);
 };
-constexpr std::array<Style, 14> kStyles = {{{"bricks", paint_bricks},
-                                            {"cabinet", paint_cabinet},
-                                            {"carton", paint_carton},
-                                            {"crate", paint_crate},
-                                            {"fewrects", paint_fewrects},
-                                            {"ground", paint_ground},
-                                            {"metal", paint_metal},
-                                            {"ornament", paint_ornament},
-                                            {"panel", paint_panel},
-                                            {"picture", paint_picture},
-                                            {"plinth", paint_plinth},
-                                            {"polygons", paint_polygons},
-                                            {"rects", paint_rects},
-                                            {"windows", paint_windows}}};
+constexpr Style kStyles[] = {
+    {"bricks", paint_bricks},   {"cabinet", paint_cabinet},   {"carton", paint_carton},
+    {"crate", paint_crate},     {"fewrects", paint_fewrects}, {"ground", paint_ground},
+    {"metal", paint_metal},     {"ornament", paint_ornament}, {"panel", paint_panel},
+    {"picture", paint_picture}, {"plinth", paint_plinth},     {"polygons", paint_polygons},
+    {"rects", paint_rects},     {"windows", paint_windows}};
 
 /// A face of a cube texture in GL's layout, from an image that appears upright from outside with z
 /// up. The rotations convert from GL's y-up convention; top and bottom have no upright.
@@ -343,17 +338,13 @@ cv::Mat3b as_cube_face(const cv::Mat3b& picture, int face) {
 }  // namespace
 
 const std::vector<std::string>& texture_styles() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Style& s : kStyles) all.emplace_back(s.name);
-    return all;
-  }();
+  constexpr auto kNames = kStyles | std::views::transform(&Style::name);
+  static const std::vector<std::string> names(kNames.begin(), kNames.end());
   return names;
 }
 
 bool is_texture_style(std::string_view name) {
-  const auto& styles = texture_styles();
-  return std::ranges::find(styles, name) != styles.end();
+  return std::ranges::count(texture_styles(), name) > 0;
 }
 
 std::string_view procedural_style(std::string_view texture_name) {
@@ -365,11 +356,9 @@ std::string_view procedural_style(std::string_view texture_name) {
 
 cv::Mat3b paint(std::string_view style, int width_px, int height_px, RandomStream random) {
   const auto* found = std::ranges::find(kStyles, style, &Style::name);
-  if (found == kStyles.end()) {
-    std::string known;
-    for (const Style& s : kStyles) known += (known.empty() ? "" : ", ") + std::string(s.name);
-    throw std::invalid_argument("no texture style is called '" + std::string(style) +
-                                "'; there are " + known);
+  if (found == std::end(kStyles)) {
+    throw std::invalid_argument(fmt::format("no texture style is called '{}'; there are {}", style,
+                                            fmt::join(texture_styles(), ", ")));
   }
   cv::Mat3b picture(height_px, width_px);
   Brush brush(picture, random);

@@ -19,10 +19,10 @@ class RunWriter {
   }
   /// Adds pixels outside the mask up to this pixel.
   void skip_to(std::int64_t pixel) { add(false, pixel - written_); }
-  Runs take() { return std::move(runs_); }
+  PixelRuns take() { return std::move(runs_); }
 
  private:
-  Runs runs_{0};
+  PixelRuns runs_{0};
   std::int64_t written_ = 0;
 };
 
@@ -35,7 +35,7 @@ Mask in_least_box(const Mask& mask) {
 
 }  // namespace
 
-Runs runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number) {
+PixelRuns runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number) {
   RunWriter runs;
   for (int x = box.x; x < box.x + box.width; ++x) {
     const int* const column = columns[x] + box.y;
@@ -60,7 +60,7 @@ Mask mask_of(const cv::Mat1b& picture) {
 
 Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px) {
   const std::int64_t all = std::int64_t{size_px.height} * size_px.width;
-  if (!std::in_range<Runs::value_type>(all)) {
+  if (!std::in_range<PixelRuns::value_type>(all)) {
     throw std::invalid_argument(fmt::format("the mask is of {} x {} pixels, which no picture has",
                                             size_px.height, size_px.width));
   }
@@ -78,14 +78,14 @@ Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px) {
                     "pixels outside first",
                     size_px.height, size_px.width));
   }
-  Mask mask = in_least_box({{{}, size_px}, Runs(runs.begin(), runs.end())});
+  Mask mask = in_least_box({{{}, size_px}, PixelRuns(runs.begin(), runs.end())});
   if (mask.box.empty()) {
     throw std::invalid_argument("the mask has no pixel; leave out what is not seen");
   }
   return mask;
 }
 
-Runs runs_in(const cv::Rect& box, const Mask& mask) {
+PixelRuns runs_in(const cv::Rect& box, const Mask& mask) {
   RunWriter runs;
   visit_stretches(mask, [&](int x, int top, int bottom) {
     runs.skip_to(std::int64_t{x - box.x} * box.height + top - box.y);

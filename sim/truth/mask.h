@@ -11,16 +11,16 @@
 
 namespace lcs::sim {
 
-using Runs = std::vector<std::uint32_t>;
+using PixelRuns = std::vector<std::uint32_t>;
 
 struct Mask {
-  cv::Rect box;  ///< bounds all pixels of the mask
-  Runs runs;     ///< runs over the pixels of the box
+  cv::Rect box;    ///< bounds all pixels of the mask
+  PixelRuns runs;  ///< runs over the pixels of the box
 };
 
 /// Runs of the pixels in a box that equal `number`.
 /// \param columns a transposed image: its rows are columns. \param box in the untransposed image.
-Runs runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number);
+PixelRuns runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number);
 
 /// \name A mask in its smallest bounding box.
 ///@{
@@ -33,7 +33,7 @@ Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px);
 ///@}
 
 /// The runs of the mask in another box, which must hold all its pixels.
-Runs runs_in(const cv::Rect& box, const Mask& mask);
+PixelRuns runs_in(const cv::Rect& box, const Mask& mask);
 
 /// Calls `visit(x, top, bottom)` for each vertical run [top, bottom) in image column x, from left
 /// to right and top to bottom.

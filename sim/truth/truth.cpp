@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -104,7 +105,7 @@ Pose between(const Pose& a, const Pose& b, double share) {
   return {from.slerp(share, to).toRotationMatrix(), (1 - share) * a.p + share * b.p};
 }
 
-CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Way& way,
+CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const PointMotion& way,
                   const Eigen::Vector2f& corner, double min_depth_m, const Optics* picture) {
   CornerTruth result;
   const bool is_bent = picture && !picture->is_pinhole();
@@ -162,23 +163,18 @@ bool moved(const Pose& now, const Pose& next) {
          (next.R - now.R).norm() > std::sqrt(2.0) * kStill_rad;
 }
 
-Way::Way(const FrameTruth& truth, int height_px) : rolls_(!truth.now_rows.at.empty()) {
-  const auto at_rows = [&](const Readout& readout, const Pose& now, auto&& pose_of) -> Poses {
+PointMotion::PointMotion(const FrameTruth& truth, int height_px) : rolls_(!truth.now_rows.at.empty()) {
+  const auto at_rows = [&](const Readout& readout, const Pose& now, auto pose_of) -> Poses {
     if (readout.at.empty()) return {now};
-    Poses poses;
-    const double last = static_cast<double>(readout.at.size() - 1);
+    Poses steps, poses;
+    std::ranges::transform(readout.at, std::back_inserter(steps), pose_of);
     for (int row = 0; row <= height_px; ++row) {
-      const double step = std::clamp((row - readout.first_row) / readout.rows_per_step, 0.0, last);
-      const double before = std::min(std::floor(step), last - 1);
-      const Pose& a = pose_of(readout.at[static_cast<std::size_t>(before)]);
-      const Pose& b = pose_of(readout.at[static_cast<std::size_t>(before) + 1]);
-      poses.push_back(between(a, b, step - before));
+      poses.push_back(pose_at(steps, (row - readout.first_row) / readout.rows_per_step));
     }
     return poses;
   };
-  const auto camera = [](const Snapshot& s) -> const Pose& { return s.T_WC; };
-  T_WC_ = at_rows(truth.now_rows, truth.now.T_WC, camera);
-  next_T_WC_ = at_rows(truth.next_rows, truth.next.T_WC, camera);
+  T_WC_ = at_rows(truth.now_rows, truth.now.T_WC, &Snapshot::T_WC);
+  next_T_WC_ = at_rows(truth.next_rows, truth.next.T_WC, &Snapshot::T_WC);
   for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id) {
     moves_.push_back(moved(truth.now.T_WO[id], truth.next.T_WO.at(id)));
     const auto object = [&](const Snapshot& s) -> const Pose& { return s.T_WO[id]; };
@@ -193,7 +189,7 @@ Way::Way(const FrameTruth& truth, int height_px) : rolls_(!truth.now_rows.at.emp
   }
 }
 
-Pose Way::pose_at(const Poses& poses, double row) {
+Pose PointMotion::pose_at(const Poses& poses, double row) {
   if (poses.size() == 1) return poses.front();
   const double last = static_cast<double>(poses.size() - 1);
   const double within = row >= 0 ? std::min(row, last) : 0;  // 0 for NaN
@@ -207,7 +203,7 @@ std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& 
                                        double min_depth_m, const Optics* picture) {
   if (!(min_depth_m > 0))
     throw std::invalid_argument("the nearest depth of truth must be positive");
-  const Way way(truth, truth.depth_m.rows);
+  const PointMotion way(truth, truth.depth_m.rows);
   std::vector<CornerTruth> labels;
   labels.reserve(corners_px.size());
   for (const Eigen::Vector2f& corner : corners_px) {

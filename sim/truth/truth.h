@@ -66,10 +66,10 @@ struct FrameTruth {
 
 /// The way of points from the rows of frame k to the rows of frame k+1, whose times differ with a
 /// rolling shutter. Between the poses of a `Readout` positions and rotations are interpolated.
-class Way {
+class PointMotion {
  public:
   /// \param height_px of the picture.
-  Way(const FrameTruth& truth, int height_px);
+  PointMotion(const FrameTruth& truth, int height_px);
 
   /// Whether a body moves from k to k+1. `object` here and below may be a limb's index in `T_WO`.
   bool moves(std::size_t object) const { return moves_.at(object) != 0; }
@@ -169,7 +169,7 @@ struct ObjectTruth {
   /// behind the camera, where its silhouette is unbounded. Areas are measured in a pinhole's image.
   double visible_fraction = 0;
   bool moving = false;  ///< its pose, or the pose of a limb, differs between k and k+1
-  Runs mask;            ///< its pixels within the box; empty if unknown
+  PixelRuns mask;       ///< its pixels within the box; empty if unknown
 };
 
 /// The mask of an object's visible pixels; its runs are empty if unknown.

@@ -16,7 +16,7 @@ namespace lcs::sim {
 /// The world at an instant at which event pixels may see it.
 struct EventInstant {
   std::int64_t t_ns = 0;
-  Stage stage;
+  ScenePoses stage;
   Snapshot snapshot;
 };
 
@@ -33,7 +33,7 @@ struct FrameState {
   /// free bodies have the velocities of time 0, and actors stand.
   ///@{
   std::vector<Snapshot> snapshots;
-  std::vector<Stage> stages;
+  std::vector<ScenePoses> stages;
   ///@}
   /// After the frame before, up to the time of this one: `kEventCells`; of the first frame the one
   /// of time 0. Empty without event pixels.

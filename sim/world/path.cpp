@@ -76,12 +76,11 @@ Path::Path(const scenario::Ego& ego) {
     }
   }
   if (!(worst <= 1e-9)) {
-    throw input::Error(
-        ego.source,
-        fmt::format(
-            "ego.path: no smooth path leads through these poses: near {:g} s it would swing "
-            "by more than half a turn; add poses in between, or give them more even times",
-            poses[worst_pose].at_s));
+    throw input::Error(ego.source,
+                       "ego.path: no smooth path leads through these poses: near {:g} s it would "
+                       "swing by more than half a turn; add poses in between, or give them more "
+                       "even times",
+                       poses[worst_pose].at_s);
   }
   for (Pose& pose : control_) pose.R = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
 }

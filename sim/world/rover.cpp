@@ -221,19 +221,13 @@ class WheeledRover : public Rover {
 
   void place(mjData& d, double z) const {
     double* q = d.qpos + base_.qpos;
-    q[0] = ego_.start_m.x();
-    q[1] = ego_.start_m.y();
-    q[2] = z;
     // turn to the start heading, but keep the roll and pitch of the ground
     const Eigen::Quaterniond R(q[3], q[4], q[5], q[6]);
     const Eigen::Vector3d x = R * Eigen::Vector3d::UnitX();
     const Eigen::Quaterniond turned(
         Eigen::AngleAxisd(ego_.heading_rad - std::atan2(x.y(), x.x()), Eigen::Vector3d::UnitZ()) *
         R);
-    q[3] = turned.w();
-    q[4] = turned.x();
-    q[5] = turned.y();
-    q[6] = turned.z();
+    Eigen::Map<Eigen::Matrix<double, 7, 1>>(q) << ego_.start_m, z, turned.w(), turned.vec();
   }
 
   double rate_of(const Wheel& wheel, const PlanarVelocity& v) const {

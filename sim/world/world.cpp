@@ -406,16 +406,10 @@ void World::note_looks(const Drawables& drawables) {
 }
 
 void World::place(const MovingActor& actor, const PlanarPose& pose) {
-  mjtNum* p = model_.d().mocap_pos + 3 * actor.mocap;
-  mjtNum* q = model_.d().mocap_quat + 4 * actor.mocap;
-  const Eigen::Quaterniond attitude = about_z(pose.heading_rad) * actor.upright;
-  p[0] = pose.position_m.x();
-  p[1] = pose.position_m.y();
-  p[2] = actor.height_m;
-  q[0] = attitude.w();
-  q[1] = attitude.x();
-  q[2] = attitude.y();
-  q[3] = attitude.z();
+  mjData& d = model_.d();
+  const Eigen::Quaterniond q = about_z(pose.heading_rad) * actor.upright;
+  Eigen::Map<Eigen::Vector3d>(d.mocap_pos + 3 * actor.mocap) << pose.position_m, actor.height_m;
+  Eigen::Map<Eigen::Vector4d>(d.mocap_quat + 4 * actor.mocap) << q.w(), q.vec();
   if (actor.gait) actor.gait->place(model_.m(), pose.walked_m);
 }
 
@@ -611,15 +605,15 @@ Snapshot World::snapshot() const {
   return s;
 }
 
-Stage World::stage() {
-  Stage stage;
+ScenePoses World::stage() {
+  ScenePoses stage;
   visit_poses(model_.m(), model_.d(), [&](const mjtNum* begin, std::int64_t size) {
     stage.numbers.insert(stage.numbers.end(), begin, begin + size);
   });
   return stage;
 }
 
-Stage World::stage_before(std::int64_t t_ns) {
+ScenePoses World::stage_before(std::int64_t t_ns) {
   const mjModel& m = model_.m();
   mjData& d = model_.d();
   const std::vector<mjtNum> qpos(d.qpos, d.qpos + m.nq);
@@ -628,7 +622,7 @@ Stage World::stage_before(std::int64_t t_ns) {
     mj_kinematics(&m, &d);
     mj_camlight(&m, &d);
   });
-  Stage before = stage();
+  ScenePoses before = stage();
   std::ranges::copy(qpos, d.qpos);
   call_mujoco([&] {
     mj_kinematics(&m, &d);
@@ -637,7 +631,7 @@ Stage World::stage_before(std::int64_t t_ns) {
   return before;
 }
 
-void World::show(const Stage& stage) {
+void World::show(const ScenePoses& stage) {
   auto from = stage.numbers.begin();
   visit_poses(model_.m(), model_.d(), [&](mjtNum* begin, std::int64_t size) {
     std::copy_n(from, size, begin);
@@ -645,19 +639,12 @@ void World::show(const Stage& stage) {
   });
 }
 
-Snapshot World::snapshot_of(const Stage& stage) {
-  const Stage present = this->stage();
+Snapshot World::snapshot_of(const ScenePoses& stage) {
+  const ScenePoses present = this->stage();
   show(stage);
   Snapshot snapshot = this->snapshot();
   show(present);
   return snapshot;
-}
-
-Pose World::T_WB() const {
-  return model_.body_pose(base_);
-}
-Pose World::T_WS() const {
-  return model_.site_pose(imu_site_);
 }
 
 Eigen::Vector3d World::v_WB_mps() const {

@@ -40,7 +40,7 @@ enum class WrongStart {
 };
 
 /// The poses that a picture shows: of bodies, geoms, cameras and lights, in MuJoCo's layout.
-struct Stage {
+struct ScenePoses {
   std::vector<mjtNum> numbers;
 };
 
@@ -94,16 +94,16 @@ class World {
   bool is_on_ground() const { return !scenario_.ego.is_carried(); }
   Snapshot snapshot() const;
   /// The poses of the last forward pass.
-  Stage stage();
+  ScenePoses stage();
   /// The poses at a time before 0, if rover and free bodies had moved with their present velocities
   /// from then on. Call it at t = 0.
-  Stage stage_before(std::int64_t t_ns);
+  ScenePoses stage_before(std::int64_t t_ns);
   /// Shows poses of another time to a renderer, until poses of the present are shown or
   /// `advance_to` is called. It changes no state of the physics.
-  void show(const Stage& stage);
-  Snapshot snapshot_of(const Stage& stage);
-  Pose T_WB() const;
-  Pose T_WS() const;
+  void show(const ScenePoses& stage);
+  Snapshot snapshot_of(const ScenePoses& stage);
+  Pose T_WB() const { return model_.body_pose(base_); }
+  Pose T_WS() const { return model_.site_pose(imu_site_); }
   Eigen::Vector3d v_WB_mps() const;
   Eigen::Vector3d v_WS_mps() const;
   Eigen::Vector3d v_WC_mps() const;

@@ -51,13 +51,13 @@ class BenchTest : public testing::Test {
       scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = {"frames=6"}, .seed = {}});
   sim::Simulation simulation_{scenario_};
   Alarmist detector_;
-  Recording recording_{run_info(scenario_, simulation_), {}};
+  recording::Recording recording_{run_info(scenario_, simulation_), {}};
 };
 
 TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
   int seen = 0;
   run_into(recording_, scenario_, simulation_, detector_,
-           [&](const FrameRecord& frame, const cv::Mat3b& image) {
+           [&](const recording::FrameRecord& frame, const cv::Mat3b& image) {
              EXPECT_EQ(frame.index, seen);
              EXPECT_EQ(image.size(),
                        cv::Size(scenario_.camera.width_px, scenario_.camera.height_px));
@@ -68,7 +68,7 @@ TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
   EXPECT_EQ(recording_.scenario, "crossing");
   EXPECT_EQ(recording_.objects.size(), simulation_.objects().size());
   for (int k = 0; k < kFrames; ++k) {
-    const FrameRecord& frame = recording_.frames[static_cast<std::size_t>(k)];
+    const recording::FrameRecord& frame = recording_.frames[static_cast<std::size_t>(k)];
     EXPECT_EQ(frame.t_ns, k * std::int64_t{100'000'000});
     EXPECT_EQ(frame.verdicts.size(), frame.corners_px.size());
     EXPECT_EQ(frame.corner_truth.size(), frame.corners_px.size());
@@ -87,14 +87,16 @@ TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
 TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
   Alarmist other;
   detector_.want_signatures();
-  Recording of_other;
-  const auto into = [](Recording& recording) {
-    return [&](const FrameRecord& frame, const cv::Mat3b&) { recording.frames.push_back(frame); };
+  recording::Recording of_other;
+  const auto into = [](recording::Recording& recording) {
+    return [&](const recording::FrameRecord& frame, const cv::Mat3b&) {
+      recording.frames.push_back(frame);
+    };
   };
-  const Watcher both[] = {{detector_, into(recording_)}, {other, into(of_other)}};
+  const DetectorRun both[] = {{detector_, into(recording_)}, {other, into(of_other)}};
   run(scenario_, simulation_, both);
   for (std::size_t k = 0; k < recording_.frames.size(); ++k) {
-    const FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
+    const recording::FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
     cv::Mat1b grey;
     cv::cvtColor(detector_.images()[k], grey, cv::COLOR_BGR2GRAY);
     ASSERT_FALSE(frame.corners_px.empty());
@@ -110,12 +112,12 @@ TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
 
 TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
   run_into(recording_, scenario_, simulation_, detector_);
-  const Metrics metrics = score(recording_);
-  EXPECT_EQ(value(metrics, "rebel.recall"), 1);
-  EXPECT_EQ(value(metrics, "rebel.object_recall"), 1);
+  const scoring::Metrics metrics = scoring::score(recording_);
+  EXPECT_EQ(scoring::value(metrics, "rebel.recall"), 1);
+  EXPECT_EQ(scoring::value(metrics, "rebel.object_recall"), 1);
   int rebels = 0, fixed = 0;
-  for (const FrameRecord& frame : recording_.frames) {
-    if (frame.index < kSightings) continue;
+  for (const recording::FrameRecord& frame : recording_.frames) {
+    if (frame.index < recording::kSightings) continue;
     for (const sim::CornerTruth& truth : frame.corner_truth) {
       rebels += truth.label == sim::Label::rebel;
       fixed += truth.label == sim::Label::fixed;
@@ -123,12 +125,12 @@ TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
   }
   EXPECT_GT(rebels, 0);
   EXPECT_GT(fixed, 0);
-  EXPECT_DOUBLE_EQ(value(metrics, "rebel.precision").value(),
+  EXPECT_DOUBLE_EQ(scoring::value(metrics, "rebel.precision").value(),
                    static_cast<double>(rebels) / (rebels + fixed));
 }
 
 TEST_F(BenchTest, ExceptionOfTheSinkEndsTheRun) {
-  const auto stop_at_2 = [](const FrameRecord& frame, const cv::Mat3b&) {
+  const auto stop_at_2 = [](const recording::FrameRecord& frame, const cv::Mat3b&) {
     if (frame.index == 2) throw std::runtime_error("enough");
   };
   EXPECT_THROW(run_into(recording_, scenario_, simulation_, detector_, stop_at_2),
@@ -140,14 +142,14 @@ TEST_F(BenchTest, ExceptionOfTheSinkEndsTheRun) {
 std::pair<std::vector<int>, std::string> worked_on(int threads, int unmade, int unworkable) {
   std::vector<int> worked;
   int k = 0;
-  const auto make = [&]() -> std::optional<SeenFrame> {
+  const auto make = [&]() -> std::optional<InputFrame> {
     if (k == unmade) throw std::runtime_error("making " + std::to_string(k));
     if (k == 5) return std::nullopt;
-    SeenFrame seen;
+    InputFrame seen;
     seen.record.index = k++;
     return seen;
   };
-  const auto work = [&](SeenFrame& seen) {
+  const auto work = [&](InputFrame& seen) {
     if (seen.record.index == unworkable) {
       throw std::runtime_error("working on " + std::to_string(unworkable));
     }
@@ -177,7 +179,7 @@ TEST(ForEachFrame, TwoThreadsEndWithTheErrorOfOneThread) {
 /// every thread.
 class Wall : public FrameSource {
  public:
-  bool next(FrameRecord& frame, cv::Mat3b& image) override {
+  bool next(recording::FrameRecord& frame, cv::Mat3b& image) override {
     constexpr int kLength = 8, kStep_px = 4;
     if (k_ == kLength) return false;
     cv::cvtColor(noise_.colRange(kStep_px * k_, kStep_px * k_ + kCamera.width_px), image,
@@ -189,7 +191,9 @@ class Wall : public FrameSource {
     return true;
   }
   bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat&) const override { return false; }
-  void label(FrameRecord& frame) override { set_corner_truth(Truth::unknown, frame); }
+  void label(recording::FrameRecord& frame) override {
+    recording::set_corner_truth(recording::Truth::unknown, frame);
+  }
   Diagnostics diagnostics() const override { return {}; }
 
   inline static const Intrinsics kCamera{
@@ -213,17 +217,17 @@ TEST(ForEachFrame, TheFilterSaysInASecondThreadAsInOne) {
   const auto recorded = [&](int threads) {
     Wall wall;
     LcsDetector filter(Wall::kCamera, filter_parameters(scenario));
-    Recording recording;
+    recording::Recording recording;
     std::set<std::thread::id> workers;
-    const Watcher watcher{filter, [&](const FrameRecord& frame, const cv::Mat3b&) {
-                            workers.insert(std::this_thread::get_id());
-                            recording.frames.push_back(frame);
-                          }};
-    run(wall, CornerFinder(scenario), {&watcher, 1}, threads);
+    const DetectorRun detector{filter, [&](const recording::FrameRecord& frame, const cv::Mat3b&) {
+                                 workers.insert(std::this_thread::get_id());
+                                 recording.frames.push_back(frame);
+                               }};
+    run(wall, CornerFinder(scenario), {&detector, 1}, threads);
     EXPECT_EQ(workers.contains(std::this_thread::get_id()), threads == 1);
     return recording;
   };
-  const Recording one = recorded(1), two = recorded(2);
+  const recording::Recording one = recorded(1), two = recorded(2);
   ASSERT_EQ(one.frames.size(), 8u);
   ASSERT_EQ(two.frames.size(), 8u);
   EXPECT_GT(one.frames[7].layers.normal_edges.size(), 50u);
@@ -275,9 +279,9 @@ TEST(CornersOfEvents, AreOnTheOutlinesThatThePicturesShow) {
     sim::Simulation simulation(scenario);
     Alarmist detector;
     detector.want_signatures();
-    Recording recording{run_info(scenario, simulation), {}};
+    recording::Recording recording{run_info(scenario, simulation), {}};
     run_into(recording, scenario, simulation, detector,
-             [&](const FrameRecord& frame, const cv::Mat3b& image) {
+             [&](const recording::FrameRecord& frame, const cv::Mat3b& image) {
                if (frame.index == 0) {
                  EXPECT_TRUE(frame.corners_px.empty());
                  return;
@@ -302,7 +306,7 @@ TEST(CornersOfEvents, AreOnTheOutlinesThatThePicturesShow) {
              });
     return recording;
   };
-  const Recording first = run_once(), second = run_once();
+  const recording::Recording first = run_once(), second = run_once();
   for (std::size_t k = 0; k < first.frames.size(); ++k) {
     EXPECT_EQ(first.frames[k].corners_px, second.frames[k].corners_px);
     EXPECT_EQ(first.frames[k].signatures, second.frames[k].signatures);

@@ -9,13 +9,14 @@ namespace lcs::bench {
 
 /// \param recording receives the frames up to an exception of the detector or the sink.
 inline void run_into(
-    Recording& recording, const scenario::Scenario& scenario, sim::Simulation& simulation,
-    Detector& detector, const FrameSink& sink = [](const FrameRecord&, const cv::Mat3b&) {}) {
-  const Watcher watcher{detector, [&](const FrameRecord& frame, const cv::Mat3b& image) {
+    recording::Recording& recording, const scenario::Scenario& scenario,
+    sim::Simulation& simulation, Detector& detector,
+    const FrameSink& sink = [](const recording::FrameRecord&, const cv::Mat3b&) {}) {
+  const DetectorRun one{detector, [&](const recording::FrameRecord& frame, const cv::Mat3b& image) {
                           recording.frames.push_back(frame);
                           sink(frame, image);
                         }};
-  recording.warnings = run(scenario, simulation, {&watcher, 1}).warnings;
+  recording.warnings = run(scenario, simulation, {&one, 1}).warnings;
 }
 
 }  // namespace lcs::bench

@@ -30,7 +30,7 @@
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/comparators/klt.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 /// Frames until the filter has tracks to compare and a steady number of edges.
@@ -171,7 +171,7 @@ void ego_motion(benchmark::State& state, const std::string& scene) {
       scenario::load(scenario_file(scene), {.sets = {"ego_motion=imu"}, .seed = {}});
   const sim::Drive drive = sim::drive(scenario);
   for (auto _ : state) {
-    EgoMotionFeed feed(scenario, drive.calibration);
+    bench::EgoMotionFeed feed(scenario, drive.calibration);
     state.SetIterationTime(cpu_seconds([&] {
       for (const sim::Observation& observation : drive.frames) {
         benchmark::DoNotOptimize(feed.next(observation));
@@ -271,11 +271,11 @@ void add_all() {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);  // like the filter: ratios compare work, not cores
-  lcs::bench::add_all();
+  lcs::test::add_all();
   benchmark::Initialize(&argc, argv);
   // The remaining argument is the file of the page.
   if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
@@ -284,7 +284,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    lcs::bench::PageReporter reporter;
+    lcs::test::PageReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
     if (argc == 2 && reporter.any()) reporter.write(argv[1]);
   } catch (const std::exception& error) {

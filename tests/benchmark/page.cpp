@@ -16,7 +16,7 @@
 #include "tests/benchmark/raw_renderer.h"
 #include "tools/files/output.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 constexpr const char* kScenes[] = {"lab", "street"};
@@ -211,19 +211,20 @@ void PageReporter::write(const std::filesystem::path& page) const {
     if (any("settings/" + scene)) tables += settings_table(scene);
   }
 
-  Output output(page, Overwrite::own);
-  write_file(output.staging(),
-             fmt::format("<!doctype html><meta charset=utf-8><title>lcs benchmarks</title><style>{}"
-                         "</style>\n<h1>Benchmarks, {:%Y-%m-%d %H:%M} UTC</h1>\n",
-                         kStyle, fmt::gmtime(std::time(nullptr))) +
-                 machine() +
-                 "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for "
-                 "what computes, of all threads for what renders, of the wall clock for the "
-                 "settings. The streams "
-                 "have the density of corners of the recorded pictures; with their number grows "
-                 "the picture.</p>\n<ul>\n" +
-                 targets + "</ul>\n" + tables);
+  files::Output output(page, files::Overwrite::own);
+  files::write_file(
+      output.staging(),
+      fmt::format("<!doctype html><meta charset=utf-8><title>lcs benchmarks</title><style>{}"
+                  "</style>\n<h1>Benchmarks, {:%Y-%m-%d %H:%M} UTC</h1>\n",
+                  kStyle, fmt::gmtime(std::time(nullptr))) +
+          machine() +
+          "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for "
+          "what computes, of all threads for what renders, of the wall clock for the "
+          "settings. The streams "
+          "have the density of corners of the recorded pictures; with their number grows "
+          "the picture.</p>\n<ul>\n" +
+          targets + "</ul>\n" + tables);
   output.commit();
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// Prints like Google Benchmark and keeps the results for the page.
 class PageReporter : public benchmark::ConsoleReporter {
@@ -43,4 +43,4 @@ class PageReporter : public benchmark::ConsoleReporter {
   std::map<std::string, Measured> measured_;  // "filter/lab/700"
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

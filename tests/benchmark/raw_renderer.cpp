@@ -9,7 +9,7 @@
 #include "sim/camera/gl_context.h"
 #include "sim/scene/mujoco.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 constexpr int kDefaultShadowSize = 4096;  // MuJoCo's, texels
@@ -123,4 +123,4 @@ cv::Mat3b RawRenderer::picture() const {
   return picture;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -8,7 +8,7 @@
 
 #include "sim/world/world.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// Renders for the truth.
 enum class TruthRenders {
@@ -66,4 +66,4 @@ class RawRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

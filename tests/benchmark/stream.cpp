@@ -10,7 +10,7 @@
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 cv::Mat1b grey_of(const cv::Mat3b& image) {
@@ -38,7 +38,7 @@ cv::Mat_<Pixel> tiled(const cv::Mat_<Pixel>& tile, const Intrinsics& camera) {
 Footage::Footage(const std::string& scenario_file) : scenario(scenario::load(scenario_file)) {
   sim::Simulation simulation(scenario);
   camera = bench::intrinsics(simulation.calibration().camera);
-  EgoMotionFeed feed(scenario, simulation.calibration());
+  bench::EgoMotionFeed feed(scenario, simulation.calibration());
   const FastDetector detector(scenario.fast_threshold);
   double corners = 0;
   while (const auto observation = simulation.next()) {
@@ -78,4 +78,4 @@ cv::Mat1b Stream::grey(std::size_t frame) const {
   return tiled(grey_of(footage_->images[frame]), camera_);
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

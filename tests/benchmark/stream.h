@@ -18,7 +18,7 @@
 #include "filter/types/signature.h"
 #include "scenarios/scenario.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// The pictures and motions of a scenario, rendered once.
 struct Footage {
@@ -56,4 +56,4 @@ class Stream {
   std::vector<std::vector<Signature>> signatures_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

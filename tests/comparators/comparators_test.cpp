@@ -24,7 +24,7 @@
 namespace lcs::comparators {
 namespace {
 
-using bench::Recording;
+using recording::Recording;
 
 Recording run(std::string_view name, const char* file, std::vector<std::string> sets = {}) {
   const scenario::Scenario scenario = scenario::load(std::string(LCS_SCENARIOS_DIR "/") + file,
@@ -39,7 +39,7 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
 
 TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
   for (const DetectorKind& each : detectors()) EXPECT_EQ(&detector(each.name), &each);
-  EXPECT_EQ(bench::refusal_of<std::invalid_argument>([] { detector("yolo"); }),
+  EXPECT_EQ(test::refusal_of<std::invalid_argument>([] { detector("yolo"); }),
             "no detector is called 'yolo'; there are lcs, klt, homography, dis");
 }
 
@@ -55,7 +55,7 @@ TEST(DetectorSpec, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
         {"lcs:", "the filter has no preset ''"},
         {"klt:lab", "klt has no presets, which are the filter's; give klt alone, or lcs:lab"},
         {"yolo:lab", "no detector is called 'yolo'"}}) {
-    const std::string what = bench::refusal_of<std::invalid_argument>([&] { spec_of(name); });
+    const std::string what = test::refusal_of<std::invalid_argument>([&] { spec_of(name); });
     EXPECT_NE(what.find(said), std::string::npos) << name << ": " << what;
   }
 }
@@ -461,7 +461,7 @@ TEST_P(DetectorTest, TheGlobalGeneratorOfRandomNumbersHasNoSay) {
     paste_mover(before, {0, 0});
     paste_mover(now, {-7, 5});
     step(*detector, before, corners_of(before), {});
-    bench::FrameRecord frame;
+    recording::FrameRecord frame;
     frame.corners_px = corners_of(now);
     FrameResult result = step(*detector, now, frame.corners_px, motion({0, 0, 1}, {0, 0.1, 0}));
     frame.verdicts = result.verdicts;
@@ -482,7 +482,7 @@ TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
     cv::setNumThreads(count);
     DisDetector detector(kIntrinsics);
     detector.step({cv::Mat3b(), before, {}, {}});
-    bench::FrameRecord frame;
+    recording::FrameRecord frame;
     frame.corners_px = corners;
     const FrameResult& said = detector.step({cv::Mat3b(), now, corners, ego});
     frame.verdicts = said.verdicts;
@@ -549,9 +549,9 @@ TEST(BackwardFlow, FindsWhereCornersWere) {
   for (const Eigen::Vector2f& px : corners) guesses.push_back(px.cast<double>() + Vec2(2, -1));
 
   BackwardFlow flow({});
-  flow.see(before, {});
+  flow.advance(before, {});
   for (const auto& place : flow.track(corners, guesses)) EXPECT_FALSE(place);
-  flow.see(now, motion({0, 0, 0}, {0, 0, 0}));
+  flow.advance(now, motion({0, 0, 0}, {0, 0, 0}));
   const auto found = flow.track(corners, guesses);
   int followed = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -644,12 +644,12 @@ TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {
 
 /// Measured on the whole scenario: klt 0.85, homography 0.85, less a margin for another OpenCV.
 TEST(Yardstick, OnTheCrossingBothAreWorthComparingWith) {
-  const bench::Metrics klt = bench::score(run("klt", "crossing.yaml"));
-  EXPECT_GT(bench::value(klt, "rebel.f1").value(), 0.81);
-  EXPECT_GT(bench::value(klt, "square.recall_50_movers").value(), 0.8);
-  EXPECT_LT(bench::value(klt, "rebel.false_objects_per_100_frames").value(), 5);
-  const bench::Metrics homography = bench::score(run("homography", "crossing.yaml"));
-  EXPECT_GT(bench::value(homography, "rebel.f1").value(), 0.77);
+  const scoring::Metrics klt = scoring::score(run("klt", "crossing.yaml"));
+  EXPECT_GT(scoring::value(klt, "rebel.f1").value(), 0.81);
+  EXPECT_GT(scoring::value(klt, "square.recall_50_movers").value(), 0.8);
+  EXPECT_LT(scoring::value(klt, "rebel.false_objects_per_100_frames").value(), 5);
+  const scoring::Metrics homography = scoring::score(run("homography", "crossing.yaml"));
+  EXPECT_GT(scoring::value(homography, "rebel.f1").value(), 0.77);
 }
 
 }  // namespace

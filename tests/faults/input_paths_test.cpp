@@ -49,7 +49,7 @@ const std::map<std::string, std::set<std::string>> kWays{
 
 /// Code without comments, because comments may name forbidden calls.
 std::string code_of(const fs::path& file) {
-  std::istringstream lines(lcs::bench::read(file));
+  std::istringstream lines(lcs::test::read(file));
   std::string code;
   for (std::string line; std::getline(lines, line);) {
     code += line.substr(0, line.find("//")) + '\n';

@@ -23,7 +23,7 @@
 #include "tools/sequence/manifest.h"
 #include "tools/suite/suite_result.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ class Killed : public testing::Test {
   bool has_locked_folder() const {
     for (const auto& entry : fs::directory_iterator(home_.path())) {
       const bool is_staging = entry.path().string().find(".partial-") != std::string::npos;
-      if (is_staging && FolderLock(entry.path()).is_of_another()) return true;
+      if (is_staging && files::FolderLock(entry.path()).is_of_another()) return true;
     }
     return false;
   }
@@ -109,7 +109,7 @@ TEST_F(Killed, SuiteLeavesTheEarlierOneOrTheNewOne) {
     ASSERT_EQ(suite.scenarios.size(), 2u);
     for (const suite::ScenarioResult& scenario : suite.scenarios) {
       EXPECT_EQ(scenario.runs.at(0).outcome, suite::Outcome::passed) << scenario.runs[0].error;
-      EXPECT_EQ(read_metrics(out / scenario.runs[0].folder / kMetricsFile),
+      EXPECT_EQ(scoring::read_metrics(out / scenario.runs[0].folder / scoring::kMetricsFile),
                 scenario.runs[0].metrics);
     }
     for (const auto& [path, bytes] : after) EXPECT_EQ(path.find("partial"), path.npos) << path;
@@ -133,10 +133,10 @@ TEST_F(Killed, RunBesideLeavesBothResultsOldOrBothNew) {
     run_and_kill(with_seed(i), whole);
     // The process that renames both outputs ends by itself.
     while (has_locked_folder()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const std::uint64_t own = read_recording(home_.path() / "own").seed;
-    EXPECT_EQ(read_recording(home_.path() / "beside").seed, own);
+    const std::uint64_t own = recording::read_recording(home_.path() / "own").seed;
+    EXPECT_EQ(recording::read_recording(home_.path() / "beside").seed, own);
     for (const char* folder : {"own", "beside"}) {
-      EXPECT_EQ(first_difference(home_.path() / folder), "") << "it is whole";
+      EXPECT_EQ(files::first_difference(home_.path() / folder), "") << "it is whole";
     }
   }
   time(with_seed(0));
@@ -154,7 +154,7 @@ TEST_F(Killed, GenerateGoesOnToTheSameBytes) {
     run_and_kill(to("stopped", i % 2 == 0 ? "1" : "2"), whole);
     const fs::path folder = home_.path() / "stopped";
     if (!fs::exists(folder)) continue;
-    EXPECT_EQ(first_difference(folder), "") << "it says that it is whole";
+    EXPECT_EQ(files::first_difference(folder), "") << "it says that it is whole";
     time(to("stopped", "1"));
     EXPECT_TRUE(bytes_in(folder) == expected);
     fs::remove_all(folder);
@@ -206,4 +206,4 @@ TEST_F(Killed, TuneLosesNoRowAndEndsWithTheSameNumbers) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

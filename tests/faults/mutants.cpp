@@ -33,7 +33,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace lcs::bench;
+using namespace lcs::test;
 using namespace std::chrono_literals;
 using Arguments = std::vector<std::string>;
 using Random = std::mt19937_64;

@@ -18,7 +18,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,7 +56,7 @@ TEST_P(ClosedDescriptors, LeaveTheSameFilesAsOpenOnes) {
   CommandOptions closed = options();
   closed.closed = GetParam();
   EXPECT_EQ(run_lcs(run({"--out", "closed"}), closed).exit_code, 0);
-  for (const char* file : {kLayersFile, kTruthFile}) {
+  for (const char* file : {recording::kLayersFile, recording::kTruthFile}) {
     EXPECT_EQ(read(home() / "closed" / file), read(home() / "open" / file)) << file;
   }
 }
@@ -268,4 +268,4 @@ TEST_F(Process, NumbersOfOptionsAreReadLikeThoseOfScenarios) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -6,7 +6,7 @@
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 using Json = nlohmann::json;
@@ -16,7 +16,7 @@ std::string lists(std::size_t depth, const std::string& inside = "") {
 }
 
 std::string refusal(const std::string& text) {
-  return refusal_of<JsonError>([&] { parse_json<Json>(text); });
+  return test::refusal_of<JsonError>([&] { parse_json<Json>(text); });
 }
 
 TEST(JsonText, ReplacesWhatIsNoUtf8) {
@@ -49,9 +49,9 @@ TEST(ParseJson, BracketsInTextsNestNothing) {
 }
 
 TEST(ParseJson, ToldOfAFileNamesItsLine) {
-  const TemporaryFolder folder;
-  write(folder.path() / "a.json", "{\"a\": 1,\n\n \"b\": " + lists(100'000) + "}");
-  const std::string told = refusal_of<input::Error>([&] {
+  const test::TemporaryFolder folder;
+  test::write(folder.path() / "a.json", "{\"a\": 1,\n\n \"b\": " + lists(100'000) + "}");
+  const std::string told = test::refusal_of<input::Error>([&] {
     read_json(folder.path() / "a.json", {input::kMebibyte, "give another"},
               [](const JsonNode&) { return 0; });
   });
@@ -60,4 +60,4 @@ TEST(ParseJson, ToldOfAFileNamesItsLine) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -27,7 +27,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/written.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,36 +39,36 @@ class OutputTest : public testing::Test {
   /// A finished result.
   static void make_result(const fs::path& target, const std::string& text) {
     Output folder(target, kFiles);
-    write(folder.staging() / "metrics.json", "by lcs: " + text);
+    test::write(folder.staging() / "metrics.json", "by lcs: " + text);
     folder.commit();
   }
   static std::string refusal(const fs::path& target) {
-    return refusal_of<OutputError>([&] { Output(target, kFiles); });
+    return test::refusal_of<OutputError>([&] { Output(target, kFiles); });
   }
   static std::string file_refusal(const fs::path& target, Overwrite overwrite = Overwrite::own) {
-    return refusal_of<OutputError>([&] { Output(target, overwrite); });
+    return test::refusal_of<OutputError>([&] { Output(target, overwrite); });
   }
-  TemporaryFolder temporary_;
+  test::TemporaryFolder temporary_;
   fs::path top_ = fs::canonical(temporary_.path());
 };
 
 TEST_F(OutputTest, ResultsAppearAtTheTargetOnCommitAndNotBefore) {
   Output folder(top_ / "run", kFiles);
-  write(folder.staging() / "metrics.json", "{}");
+  test::write(folder.staging() / "metrics.json", "{}");
   EXPECT_FALSE(fs::exists(top_ / "run"));
   folder.commit();
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "{}");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "{}");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, NothingIsLeftWhenItIsNotCommitted) {
   try {
     const Output folder(top_ / "out" / "deep" / "run", kFiles);
-    write(folder.staging() / "metrics.json", "{}");
+    test::write(folder.staging() / "metrics.json", "{}");
     throw std::runtime_error("the run failed");
   } catch (const std::runtime_error&) {
   }
-  EXPECT_TRUE(entries(top_).empty()) << "the folders made above the target are gone too";
+  EXPECT_TRUE(test::entries(top_).empty()) << "the folders made above the target are gone too";
 }
 
 /// Between the making of a staging folder and its lock it looks like that of a killed process.
@@ -80,7 +80,7 @@ TEST_F(OutputTest, ACompressedTextIsReadByOtherPrograms) {
     text.write(fmt::format("{}\n", i));
   }
   text.close();
-  write(top_ / "plain", all);
+  test::write(top_ / "plain", all);
   const std::string shell = "cd " + top_.string() + " && ";
   EXPECT_EQ(std::system((shell + "zcat text.gz | cmp - plain").c_str()), 0);
   EXPECT_EQ(std::system((shell + "python3 -c 'import gzip; assert gzip.open(\"text.gz\").read() == "
@@ -95,70 +95,71 @@ TEST_F(OutputTest, AnUnfinishedResultIsKeptOnRequestAndTheNextGoesOnThere) {
     return std::make_unique<Output>(top_ / "run", kFiles, Unfinished::kept);
   };
   begin();
-  EXPECT_EQ(entries(top_), std::set<std::string>{}) << "nothing was kept";
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{}) << "nothing was kept";
   auto first = begin();
-  write(first->staging() / "metrics.json", "{}");
+  test::write(first->staging() / "metrics.json", "{}");
   first->keep();
   first.reset();
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run.unfinished"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run.unfinished"});
 
   begin();
   auto next = begin();
-  EXPECT_EQ(read(next->staging() / "metrics.json"), "{}") << "also after one that did nothing";
-  const std::string busy = refusal_of<OutputError>([&] { begin(); });
+  EXPECT_EQ(test::read(next->staging() / "metrics.json"), "{}")
+      << "also after one that did nothing";
+  const std::string busy = test::refusal_of<OutputError>([&] { begin(); });
   EXPECT_NE(busy.find("would go into each other"), std::string::npos) << busy;
   next->commit();
   next.reset();
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 
   first = begin();
-  write(first->staging() / "metrics.json", "[]");
+  test::write(first->staging() / "metrics.json", "[]");
   first->keep();
   first.reset();
   next = begin();
   next->empty();
   EXPECT_TRUE(fs::is_empty(next->staging()));
   next.reset();
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, AnUnfinishedResultStaysAsItIsWhenTheNextCannotBegin) {
   {
     Output first(top_ / "run", kFiles, Unfinished::kept);
-    write(first.staging() / "metrics.json", "{}");
+    test::write(first.staging() / "metrics.json", "{}");
     first.keep();
   }
-  const auto kept = bytes_in(top_ / "run.unfinished");
+  const auto kept = test::bytes_in(top_ / "run.unfinished");
   {
     const FolderLock of_another(top_ / "run.unfinished");
     ASSERT_TRUE(of_another.is_held());
     const std::string busy =
-        refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
+        test::refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
     EXPECT_NE(busy.find("another process writes it"), std::string::npos) << busy;
-    EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+    EXPECT_EQ(test::bytes_in(top_ / "run.unfinished"), kept);
     const auto interrupted = [] { throw std::runtime_error("interrupted"); };
-    EXPECT_EQ(refusal_of<std::runtime_error>(
+    EXPECT_EQ(test::refusal_of<std::runtime_error>(
                   [&] { Output(top_ / "run", kFiles, Unfinished::kept, interrupted); }),
               "interrupted");
-    EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+    EXPECT_EQ(test::bytes_in(top_ / "run.unfinished"), kept);
   }
   // Something fails once the folder is known as ours: "in" cannot be a folder.
   fs::rename(top_ / "run.unfinished" / "in", top_ / "aside");
-  write(top_ / "run.unfinished" / "in", "no folder");
-  EXPECT_NE(refusal_of<OutputError>([&] {
+  test::write(top_ / "run.unfinished" / "in", "no folder");
+  EXPECT_NE(test::refusal_of<OutputError>([&] {
               Output(top_ / "run", kFiles, Unfinished::kept);
             }).find("cannot create"),
             std::string::npos);
-  EXPECT_EQ(read(top_ / "run.unfinished" / "in"), "no folder");
+  EXPECT_EQ(test::read(top_ / "run.unfinished" / "in"), "no folder");
   fs::remove(top_ / "run.unfinished" / "in");
   fs::rename(top_ / "aside", top_ / "run.unfinished" / "in");
-  EXPECT_EQ(bytes_in(top_ / "run.unfinished"), kept);
+  EXPECT_EQ(test::bytes_in(top_ / "run.unfinished"), kept);
 }
 
 TEST_F(OutputTest, TheMarkerOfAnUnfinishedResultIsNotWrittenAgain) {
   {
     Output first(top_ / "run", kFiles, Unfinished::kept);
-    write(first.staging() / "metrics.json", "{}");
+    test::write(first.staging() / "metrics.json", "{}");
     first.keep();
   }
   const fs::path marker = top_ / "run.unfinished" / ".lcs-partial";
@@ -169,11 +170,11 @@ TEST_F(OutputTest, TheMarkerOfAnUnfinishedResultIsNotWrittenAgain) {
 }
 
 TEST_F(OutputTest, AFolderInThePlaceOfTheUnfinishedResultIsRefusedAndUntouched) {
-  write(top_ / "run.unfinished" / "notes.txt", "mine");
+  test::write(top_ / "run.unfinished" / "notes.txt", "mine");
   const std::string refused =
-      refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
+      test::refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
   EXPECT_NE(refused.find("is in the way"), std::string::npos) << refused;
-  EXPECT_EQ(read(top_ / "run.unfinished" / "notes.txt"), "mine");
+  EXPECT_EQ(test::read(top_ / "run.unfinished" / "notes.txt"), "mine");
 }
 
 TEST_F(OutputTest, BeginsWhileAnotherProcessTidiesUp) {
@@ -183,7 +184,7 @@ TEST_F(OutputTest, BeginsWhileAnotherProcessTidiesUp) {
     while (!stops) remove_abandoned(target, kFiles, true);
   });
   for (int i = 0; i < 1000; ++i) {
-    EXPECT_NO_THROW(write(Output(target, kFiles).staging() / "metrics.json", "begun")) << i;
+    EXPECT_NO_THROW(test::write(Output(target, kFiles).staging() / "metrics.json", "begun")) << i;
   }
   stops = true;
   other.join();
@@ -192,31 +193,32 @@ TEST_F(OutputTest, BeginsWhileAnotherProcessTidiesUp) {
 TEST_F(OutputTest, FoldersAboveTheTargetThatWereThereStay) {
   fs::create_directory(top_ / "out");
   { const Output folder(top_ / "out" / "deep" / "run", kFiles); }
-  EXPECT_EQ(entries(top_), std::set<std::string>{"out"});
-  EXPECT_TRUE(entries(top_ / "out").empty());
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"out"});
+  EXPECT_TRUE(test::entries(top_ / "out").empty());
 }
 
 TEST_F(OutputTest, AnEarlierResultIsReplacedAsAWhole) {
   {
     Output folder(top_ / "run", kFiles);
-    write(folder.staging() / "metrics.json", "by lcs: old");
-    write(folder.staging() / "video.mp4", "old");
+    test::write(folder.staging() / "metrics.json", "by lcs: old");
+    test::write(folder.staging() / "video.mp4", "old");
     folder.commit();
   }
   make_result(top_ / "run", "new");
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
-  EXPECT_EQ(entries(top_ / "run"), std::set<std::string>{"metrics.json"}) << "no old video is left";
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(test::entries(top_ / "run"), std::set<std::string>{"metrics.json"})
+      << "no old video is left";
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, AnEarlierResultStaysWhenTheNextOneFails) {
   make_result(top_ / "run", "old");
   {
     const Output folder(top_ / "run", kFiles);
-    write(folder.staging() / "metrics.json", "new");
+    test::write(folder.staging() / "metrics.json", "new");
   }
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 // ---- Remains of killed processes
@@ -236,15 +238,15 @@ class Abandoned : public OutputTest {
     return target.string() + ".partial-" + std::to_string(process);
   }
   static void write_metrics(const Output& folder) {
-    write(folder.staging() / "metrics.json", "half");
+    test::write(folder.staging() / "metrics.json", "half");
   }
 };
 
 TEST_F(Abandoned, IsTakenAway) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
-  ASSERT_EQ(entries(top_), std::set<std::string>{left.filename()});
+  ASSERT_EQ(test::entries(top_), std::set<std::string>{left.filename()});
   make_result(top_ / "run", "new");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(Abandoned, IsLeftAloneWhileItsProcessLivesOrByOthers) {
@@ -255,14 +257,14 @@ TEST_F(Abandoned, IsLeftAloneWhileItsProcessLivesOrByOthers) {
     ASSERT_TRUE(living.is_held());
     make_result(top_ / "run", "new");
   }
-  EXPECT_EQ(entries(top_), (std::set<std::string>{"run", "walk", left.filename()}));
+  EXPECT_EQ(test::entries(top_), (std::set<std::string>{"run", "walk", left.filename()}));
 }
 
 TEST_F(Abandoned, FoldersOfTheUserThatAreCalledLikeItAreNeverTouched) {
   std::set<std::string> mine;
   for (const char* name : {"run.partial-notes", "run.partial-1", "run.partial-2", "run.old-3"}) {
     fs::create_directories(top_ / name / "in");
-    write(top_ / name / "in" / "metrics.json", "precious");
+    test::write(top_ / name / "in" / "metrics.json", "precious");
     mine.insert(name);
   }
   // a copy of a real one, under another name
@@ -270,21 +272,21 @@ TEST_F(Abandoned, FoldersOfTheUserThatAreCalledLikeItAreNeverTouched) {
   fs::copy(left, top_ / "run.partial-copy", fs::copy_options::recursive);
   mine.insert({"run.partial-copy", "run"});
   make_result(top_ / "run", "new");
-  EXPECT_EQ(entries(top_), mine);
+  EXPECT_EQ(test::entries(top_), mine);
   for (const char* name : {"run.partial-notes", "run.partial-1", "run.partial-2", "run.old-3"}) {
-    EXPECT_EQ(read(top_ / name / "in" / "metrics.json"), "precious");
+    EXPECT_EQ(test::read(top_ / name / "in" / "metrics.json"), "precious");
   }
 }
 
 TEST_F(Abandoned, FilesOfTheUserInItStay) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
-  write(left / "in" / "thesis.tex", "precious");
-  write(left / "notes.txt", "precious");
+  test::write(left / "in" / "thesis.tex", "precious");
+  test::write(left / "notes.txt", "precious");
   fs::create_symlink(left / "notes.txt", left / "in" / "video.mp4");
   make_result(top_ / "run", "new");
-  EXPECT_EQ(entries(top_), (std::set<std::string>{"run", left.filename()}));
-  EXPECT_EQ(entries(left), (std::set<std::string>{"in", "notes.txt"}));
-  EXPECT_EQ(entries(left / "in"), (std::set<std::string>{"thesis.tex", "video.mp4"}));
+  EXPECT_EQ(test::entries(top_), (std::set<std::string>{"run", left.filename()}));
+  EXPECT_EQ(test::entries(left), (std::set<std::string>{"in", "notes.txt"}));
+  EXPECT_EQ(test::entries(left / "in"), (std::set<std::string>{"thesis.tex", "video.mp4"}));
 }
 
 TEST_F(Abandoned, SuitesGoWithTheRunsThatWereUnderWayInThem) {
@@ -296,20 +298,20 @@ TEST_F(Abandoned, SuitesGoWithTheRunsThatWereUnderWayInThem) {
   });
   {
     Output folder(top_ / "suite", suite);
-    write(folder.staging() / "suite.json", "by lcs: new");
+    test::write(folder.staging() / "suite.json", "by lcs: new");
     folder.commit();
   }
-  EXPECT_EQ(entries(top_), std::set<std::string>{"suite"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"suite"});
 }
 
 TEST_F(Abandoned, AnEarlierResultOnItsWayOutIsPutBack) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
   fs::create_directory(left / "out");  // as if two folders could not be exchanged atomically
-  write(left / "out" / "metrics.json", "by lcs: old");
+  test::write(left / "out" / "metrics.json", "by lcs: old");
   write_record_of_folder(left / "out");
   { const Output folder(top_ / "run", kFiles); }
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: old");
 }
 
 // ---- Targets that are not replaced
@@ -317,38 +319,38 @@ TEST_F(Abandoned, AnEarlierResultOnItsWayOutIsPutBack) {
 TEST_F(OutputTest, AFolderOfTheSameNamesByAnotherProgramIsRefused) {
   const std::string mine = R"({"detector": "mine", "rebel.f1": 0.9})";
   fs::create_directory(top_ / "run");
-  write(top_ / "run" / "metrics.json", mine);
+  test::write(top_ / "run" / "metrics.json", mine);
   EXPECT_NE(refusal(top_ / "run").find("metrics.json is not a file that lcs has written"),
             std::string::npos);
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), mine);
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), mine);
   // A record of other bytes does not help either.
-  write(top_ / "run" / ".lcs-written", std::string(64, '0') + "  metrics.json\n");
+  test::write(top_ / "run" / ".lcs-written", std::string(64, '0') + "  metrics.json\n");
   EXPECT_NE(refusal(top_ / "run").find("metrics.json was changed"), std::string::npos);
-  write(top_ / "run" / ".lcs-written", "by lcs\n");
+  test::write(top_ / "run" / ".lcs-written", "by lcs\n");
   EXPECT_NE(refusal(top_ / "run").find("metrics.json is not a file"), std::string::npos);
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), mine);
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), mine);
 }
 
 TEST_F(OutputTest, AResultThatWasEditedIsRefusedAndUntouched) {
   make_result(top_ / "run", "old");
-  write(top_ / "run" / "metrics.json", "by lcs: my notes");
+  test::write(top_ / "run" / "metrics.json", "by lcs: my notes");
   EXPECT_NE(refusal(top_ / "run").find("metrics.json was changed since lcs wrote it"),
             std::string::npos);
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: my notes");
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: my notes");
 }
 
 TEST_F(OutputTest, AResultWithoutSomeOfItsFilesOrCopiedElsewhereIsReplaced) {
   {
     Output folder(top_ / "run", kFiles);
-    write(folder.staging() / "metrics.json", "old");
-    write(folder.staging() / "video.mp4", "old");
+    test::write(folder.staging() / "metrics.json", "old");
+    test::write(folder.staging() / "video.mp4", "old");
     folder.commit();
   }
   fs::remove(top_ / "run" / "video.mp4");
   fs::copy(top_ / "run", top_ / "copy", fs::copy_options::recursive);
   make_result(top_ / "run", "new");
   make_result(top_ / "copy", "new");
-  EXPECT_EQ(bytes_in(top_ / "run"), bytes_in(top_ / "copy"));
+  EXPECT_EQ(test::bytes_in(top_ / "run"), test::bytes_in(top_ / "copy"));
 }
 
 TEST_F(OutputTest, TheFolderThatOneIsInIsNotReplaced) {
@@ -363,24 +365,25 @@ TEST_F(OutputTest, TheFolderThatOneIsInIsNotReplaced) {
 TEST_F(OutputTest, AnEmptyFolderIsTaken) {
   fs::create_directory(top_ / "run");
   make_result(top_ / "run", "new");
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: new");
 }
 
 TEST_F(OutputTest, AFolderThatHoldsSomethingElseIsRefusedAndUntouched) {
   make_result(top_ / "run", "old");
-  write(top_ / "run" / "thesis.tex", "precious");
+  test::write(top_ / "run" / "thesis.tex", "precious");
   EXPECT_NE(refusal(top_ / "run").find("thesis.tex"), std::string::npos);
-  EXPECT_EQ(read(top_ / "run" / "thesis.tex"), "precious");
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "thesis.tex"), "precious");
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, FilesOfAnotherKindOfResultAreForeign) {
   make_result(top_ / "run", "old");
   const ResultNames others{"answer.md"};
-  EXPECT_NE(refusal_of<OutputError>([&] { Output(top_ / "run", others); }).find("would be lost"),
-            std::string::npos);
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_NE(
+      test::refusal_of<OutputError>([&] { Output(top_ / "run", others); }).find("would be lost"),
+      std::string::npos);
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: old");
 }
 
 /// How the test's file system exchanges folders.
@@ -389,11 +392,11 @@ Exchange exchange = Exchange::works;
 fs::path late;  ///< a file written by another process meanwhile
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::files
 
 /// Replaces the C library's function.
 extern "C" int renameat2(int, const char* from, int, const char* to, unsigned flags) {
-  using namespace lcs::bench;
+  using namespace lcs::files;
   if (exchange == Exchange::comes_late) std::ofstream(late) << "precious";
   if (exchange == Exchange::is_unknown) {
     errno = EINVAL;
@@ -403,7 +406,7 @@ extern "C" int renameat2(int, const char* from, int, const char* to, unsigned fl
   return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, flags));
 }
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 TEST_F(OutputTest, IsReplacedWhereFoldersCannotBeExchanged) {
@@ -411,8 +414,8 @@ TEST_F(OutputTest, IsReplacedWhereFoldersCannotBeExchanged) {
   exchange = Exchange::is_unknown;
   make_result(top_ / "run", "new");
   exchange = Exchange::works;
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, FileAddedInTheLastMomentIsNotLost) {
@@ -421,18 +424,18 @@ TEST_F(OutputTest, FileAddedInTheLastMomentIsNotLost) {
   exchange = Exchange::comes_late;
   EXPECT_THROW(make_result(top_ / "run", "new"), OutputError);
   EXPECT_EQ(exchange, Exchange::works) << "it did come";
-  EXPECT_EQ(read(late), "precious");
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(test::read(late), "precious");
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"run"});
 }
 
 TEST_F(OutputTest, FolderMadeForeignDuringTheRunIsNotReplaced) {
   Output folder(top_ / "run", kFiles);
-  write(folder.staging() / "metrics.json", "new");
+  test::write(folder.staging() / "metrics.json", "new");
   fs::create_directory(top_ / "run");
-  write(top_ / "run" / "thesis.tex", "precious");
+  test::write(top_ / "run" / "thesis.tex", "precious");
   EXPECT_THROW(folder.commit(), OutputError);
-  EXPECT_EQ(read(top_ / "run" / "thesis.tex"), "precious");
+  EXPECT_EQ(test::read(top_ / "run" / "thesis.tex"), "precious");
 }
 
 class NestedOutput : public OutputTest {
@@ -440,13 +443,13 @@ class NestedOutput : public OutputTest {
   const ResultNames kNested{"suite.json", "runs/*/seed-*/metrics.json"};
   NestedOutput() {
     Output folder(target_, kNested);
-    write(folder.staging() / "suite.json", "by lcs: old");
+    test::write(folder.staging() / "suite.json", "by lcs: old");
     fs::create_directories(folder.staging() / "runs" / "near" / "seed-1");
-    write(folder.staging() / "runs" / "near" / "seed-1" / "metrics.json", "old");
+    test::write(folder.staging() / "runs" / "near" / "seed-1" / "metrics.json", "old");
     folder.commit();
   }
   std::string refusal() const {
-    return refusal_of<OutputError>([&] { Output(target_, kNested); });
+    return test::refusal_of<OutputError>([&] { Output(target_, kNested); });
   }
   const fs::path target_ = top_ / "suite";
 };
@@ -454,12 +457,12 @@ class NestedOutput : public OutputTest {
 TEST_F(NestedOutput, IsReplacedAsAWhole) {
   {
     Output folder(target_, kNested);
-    write(folder.staging() / "suite.json", "by lcs: new");
+    test::write(folder.staging() / "suite.json", "by lcs: new");
     folder.commit();
   }
-  EXPECT_EQ(read(target_ / "suite.json"), "by lcs: new");
-  EXPECT_EQ(entries(target_), std::set<std::string>{"suite.json"});
-  EXPECT_EQ(entries(top_), std::set<std::string>{"suite"});
+  EXPECT_EQ(test::read(target_ / "suite.json"), "by lcs: new");
+  EXPECT_EQ(test::entries(target_), std::set<std::string>{"suite.json"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"suite"});
 }
 
 TEST_F(NestedOutput, IsRefusedWhateverForeignLiesHoweverDeep) {
@@ -470,10 +473,10 @@ TEST_F(NestedOutput, IsRefusedWhateverForeignLiesHoweverDeep) {
     const bool replaces_file = foreign.parent_path() == "suite.json";
     if (replaces_file) fs::remove(target_ / "suite.json");
     fs::create_directories((target_ / foreign).parent_path());
-    write(target_ / foreign, "precious");
+    test::write(target_ / foreign, "precious");
     const std::string refused = refusal();
     EXPECT_NE(refused.find("would be lost"), std::string::npos) << foreign;
-    EXPECT_EQ(read(target_ / foreign), "precious");
+    EXPECT_EQ(test::read(target_ / foreign), "precious");
     fs::remove(target_ / foreign);
     for (const char* folder : {"runs/near/seed-1/thesis", "runs/near/notes"}) {
       fs::remove(target_ / folder);
@@ -483,34 +486,34 @@ TEST_F(NestedOutput, IsRefusedWhateverForeignLiesHoweverDeep) {
 
 TEST_F(NestedOutput, ALinkInsideItIsForeignAndNotFollowed) {
   fs::create_directory(top_ / "papers");
-  write(top_ / "papers" / "metrics.json", "precious");
+  test::write(top_ / "papers" / "metrics.json", "precious");
   fs::create_directory_symlink(top_ / "papers", target_ / "runs" / "near" / "seed-2");
   EXPECT_NE(refusal().find("runs/near/seed-2"), std::string::npos) << refusal();
-  EXPECT_EQ(read(top_ / "papers" / "metrics.json"), "precious");
+  EXPECT_EQ(test::read(top_ / "papers" / "metrics.json"), "precious");
 }
 
 TEST_F(OutputTest, ATargetThatCannotBeIsRefusedWithTheReason) {
-  write(top_ / "file", "");
+  test::write(top_ / "file", "");
   EXPECT_NE(refusal(top_ / "file").find("is not a folder"), std::string::npos);
   EXPECT_NE(refusal(top_ / "file" / "run").find("Not a directory"), std::string::npos);
   EXPECT_NE(refusal("/proc/run").find("/proc/run"), std::string::npos);
-  EXPECT_EQ(entries(top_), std::set<std::string>{"file"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"file"});
 }
 
 TEST_F(OutputTest, ATrailingSlashAndDotsMeanTheSameFolder) {
   make_result(top_ / "out" / ".." / "run" / "", "new");
-  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(test::read(top_ / "run" / "metrics.json"), "by lcs: new");
 }
 
 TEST_F(OutputTest, ALinkIsRefusedWhateverItLeadsTo) {
   make_result(top_ / "run", "old");
-  const auto before = bytes_in(top_);
+  const auto before = test::bytes_in(top_);
   fs::create_directory_symlink(top_ / "run", top_ / "latest");
   fs::create_directory_symlink(top_ / "nowhere", top_ / "dangling");
   for (const char* name : {"latest", "dangling", "latest/"}) {
     EXPECT_NE(refusal(top_ / name).find("is a link"), std::string::npos) << name;
   }
-  EXPECT_EQ(bytes_in(top_), before);
+  EXPECT_EQ(test::bytes_in(top_), before);
   EXPECT_FALSE(fs::exists(top_ / "nowhere"));
 }
 
@@ -518,15 +521,15 @@ TEST_F(OutputTest, AFolderAboveTheTargetMayBeALink) {
   fs::create_directory(top_ / "disk");
   fs::create_directory_symlink(top_ / "disk", top_ / "out");
   make_result(top_ / "out" / "run", "new");
-  EXPECT_EQ(read(top_ / "disk" / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(test::read(top_ / "disk" / "run" / "metrics.json"), "by lcs: new");
 }
 
 // ---- Inputs
 
 TEST_F(OutputTest, AnInputIsNoOutputNorIsWhatLiesInsideOrRoundIt) {
   make_result(top_ / "recording", "old");
-  write(top_ / "drive" / "poses.txt", "0 0 0");
-  const auto before = bytes_in(top_);
+  test::write(top_ / "drive" / "poses.txt", "0 0 0");
+  const auto before = test::bytes_in(top_);
   input::note_input(top_ / "recording");
   input::note_input(top_ / "drive" / "poses.txt");
   for (const char* target : {"recording", "recording/deep/run", "drive", ".", "drive/poses.txt"}) {
@@ -536,7 +539,7 @@ TEST_F(OutputTest, AnInputIsNoOutputNorIsWhatLiesInsideOrRoundIt) {
               std::string::npos)
         << target << ": --force does not help";
   }
-  EXPECT_EQ(bytes_in(top_), before);
+  EXPECT_EQ(test::bytes_in(top_), before);
   make_result(top_ / "drive" / "run", "new");  // a file is an input, but not its folder
 }
 
@@ -547,23 +550,23 @@ class OutputOfAFile : public OutputTest {
   static void make_file(const fs::path& target, const std::string& text,
                         Overwrite overwrite = Overwrite::own) {
     Output file(target, overwrite);
-    write(file.staging(), text);
+    test::write(file.staging(), text);
     file.commit();
   }
 };
 
 TEST_F(OutputOfAFile, AppearsWithItsRecordAndIsReplacedWhileNobodyChangesIt) {
   make_file(top_ / "deep" / "figures.json", "old");
-  EXPECT_EQ(entries(top_ / "deep"), std::set<std::string>{"figures.json"});
-  EXPECT_EQ(read(top_ / "deep" / ".figures.json.lcs-written"),
+  EXPECT_EQ(test::entries(top_ / "deep"), std::set<std::string>{"figures.json"});
+  EXPECT_EQ(test::read(top_ / "deep" / ".figures.json.lcs-written"),
             input::sha256("old") + "  figures.json\n");
   make_file(top_ / "deep" / "figures.json", "new");
-  EXPECT_EQ(read(top_ / "deep" / "figures.json"), "new");
-  write(top_ / "deep" / "figures.json", "new, and edited");
+  EXPECT_EQ(test::read(top_ / "deep" / "figures.json"), "new");
+  test::write(top_ / "deep" / "figures.json", "new, and edited");
   EXPECT_NE(file_refusal(top_ / "deep" / "figures.json").find("was changed since"),
             std::string::npos);
-  EXPECT_EQ(read(top_ / "deep" / "figures.json"), "new, and edited");
-  EXPECT_EQ(bytes_in(top_ / "deep").size(), 2u);
+  EXPECT_EQ(test::read(top_ / "deep" / "figures.json"), "new, and edited");
+  EXPECT_EQ(test::bytes_in(top_ / "deep").size(), 2u);
 }
 
 TEST_F(OutputOfAFile, ItsRecordIsReadBySha256sum) {
@@ -576,41 +579,41 @@ TEST_F(OutputOfAFile, ItsRecordIsReadBySha256sum) {
               0)
         << name;
     make_file(top_ / name, "again");
-    EXPECT_EQ(read(top_ / name), "again");
+    EXPECT_EQ(test::read(top_ / name), "again");
   }
 }
 
 TEST_F(OutputOfAFile, ByAnotherProgramIsReplacedByForceAlone) {
-  write(top_ / "mine.csv", "frame,type\n0,rebel,1\n");
+  test::write(top_ / "mine.csv", "frame,type\n0,rebel,1\n");
   EXPECT_NE(file_refusal(top_ / "mine.csv").find("is not a file that lcs has written"),
             std::string::npos);
   EXPECT_EQ(file_refusal(top_ / "mine.csv").find("--force"), std::string::npos);
   EXPECT_NE(file_refusal(top_ / "mine.csv", Overwrite::own_or_forced).find("--force"),
             std::string::npos);
-  EXPECT_EQ(read(top_ / "mine.csv"), "frame,type\n0,rebel,1\n");
+  EXPECT_EQ(test::read(top_ / "mine.csv"), "frame,type\n0,rebel,1\n");
   make_file(top_ / "mine.csv", "by force", Overwrite::any_file);
-  EXPECT_EQ(read(top_ / "mine.csv"), "by force");
+  EXPECT_EQ(test::read(top_ / "mine.csv"), "by force");
   make_file(top_ / "mine.csv", "its own now");
 }
 
 TEST_F(OutputOfAFile, ForceReplacesNoLinkNoFolderAndNoRecordOfAnother) {
-  write(top_ / "mine.csv", "precious");
+  test::write(top_ / "mine.csv", "precious");
   fs::create_symlink("mine.csv", top_ / "link");
   fs::create_symlink("nowhere", top_ / "dangling");
   fs::create_directory(top_ / "folder");
-  write(top_ / ".x.lcs-written", "precious");
-  const auto before = bytes_in(top_);
+  test::write(top_ / ".x.lcs-written", "precious");
+  const auto before = test::bytes_in(top_);
   for (const char* name : {"link", "dangling", "folder", "x"}) {
     EXPECT_NE(file_refusal(top_ / name, Overwrite::any_file), "nothing was refused") << name;
   }
-  EXPECT_EQ(bytes_in(top_), before);
+  EXPECT_EQ(test::bytes_in(top_), before);
   EXPECT_FALSE(fs::exists(top_ / "nowhere"));
 }
 
 TEST_F(OutputOfAFile, AnEmptyFileIsTaken) {
-  write(top_ / "empty", "");
+  test::write(top_ / "empty", "");
   make_file(top_ / "empty", "new");
-  EXPECT_EQ(read(top_ / "empty"), "new");
+  EXPECT_EQ(test::read(top_ / "empty"), "new");
 }
 
 TEST_F(OutputOfAFile, ToADeviceOrAPipeThatIsReadIsWrittenDirectly) {
@@ -623,37 +626,38 @@ TEST_F(OutputOfAFile, ToADeviceOrAPipeThatIsReadIsWrittenDirectly) {
   EXPECT_EQ(::read(reader, got.data(), got.size()), 3);
   ::close(reader);
   EXPECT_EQ(std::string(got.data()), "new");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"pipe"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"pipe"});
 }
 
 TEST_F(OutputOfAFile, LeftoverOfAKilledProcessIsTakenAway) {
   const pid_t process = ::fork();
   if (process == 0) {
     const Output file(top_ / "page.html", Overwrite::own);
-    write(file.staging(), "half");
+    test::write(file.staging(), "half");
     ::_exit(0);
   }
   ::waitpid(process, nullptr, 0);
-  EXPECT_EQ(entries(top_).size(), 1u);
+  EXPECT_EQ(test::entries(top_).size(), 1u);
   make_file(top_ / "page.html", "new");
-  EXPECT_EQ(entries(top_), std::set<std::string>{"page.html"});
+  EXPECT_EQ(test::entries(top_), std::set<std::string>{"page.html"});
 }
 
 TEST_F(OutputOfAFile, CommitWithoutItsRecordIsFinishedByTheNext) {
   make_file(top_ / "figures.json", "old");
   const fs::path record = top_ / ".figures.json.lcs-written";
-  const std::string old = read(record);
+  const std::string old = test::read(record);
   make_file(top_ / "figures.json", "new");
   // As after `kill -9` between the two renames.
   const fs::path left = top_ / "figures.json.partial-4711";
   fs::create_directories(left / "in");
   fs::create_directories(left / "out");
-  write(left / ".lcs-partial",
-        "lcs writes its results here, and takes this folder away: figures.json.partial-4711\n");
+  test::write(
+      left / ".lcs-partial",
+      "lcs writes its results here, and takes this folder away: figures.json.partial-4711\n");
   fs::rename(record, left / "in" / record.filename());
-  write(record, old);
+  test::write(record, old);
   make_file(top_ / "figures.json", "newer");
-  EXPECT_EQ(read(top_ / "figures.json"), "newer");
+  EXPECT_EQ(test::read(top_ / "figures.json"), "newer");
   EXPECT_FALSE(fs::exists(left));
 }
 
@@ -661,15 +665,15 @@ TEST_F(Abandoned, AFolderThatWasJustBegunIsTakenAway) {
   for (const char* name : {"run.partial-123", "run.partial-124-1"}) {
     fs::create_directory(top_ / name);
   }
-  write(top_ / "run.partial-125" / ".lcs-partial", "");
-  write(top_ / "run.partial-126" / ".lcs-partial", "lcs writes its res");
+  test::write(top_ / "run.partial-125" / ".lcs-partial", "");
+  test::write(top_ / "run.partial-126" / ".lcs-partial", "lcs writes its res");
   const std::set<std::string> mine{"run.partial-notes", "run.partial-127"};
   fs::create_directory(top_ / "run.partial-notes");
-  write(top_ / "run.partial-127" / ".lcs-partial", "my own");
+  test::write(top_ / "run.partial-127" / ".lcs-partial", "my own");
   make_result(top_ / "run", "new");
   std::set<std::string> expected = mine;
   expected.insert("run");
-  EXPECT_EQ(entries(top_), expected);
+  EXPECT_EQ(test::entries(top_), expected);
 }
 
 // ---- Several outputs of one command
@@ -683,21 +687,21 @@ class Together : public OutputTest {
   void make(const std::string& text, const std::function<void()>& before_commit) {
     Output one(top_ / "one", kFiles), other(top_ / "other", kFiles);
     Output page(top_ / "page.html", Overwrite::own);
-    write(one.staging() / "metrics.json", text);
-    write(other.staging() / "metrics.json", text);
-    write(page.staging(), text);
+    test::write(one.staging() / "metrics.json", text);
+    test::write(other.staging() / "metrics.json", text);
+    test::write(page.staging(), text);
     before_commit();
     commit_all(std::array{&one, &other, &page});
   }
   std::set<std::string> said() const {
     std::set<std::string> texts;
     for (const char* file : {"one/metrics.json", "other/metrics.json", "page.html"}) {
-      texts.insert(fs::exists(top_ / file) ? read(top_ / file) : "nothing");
+      texts.insert(fs::exists(top_ / file) ? test::read(top_ / file) : "nothing");
     }
     return texts;
   }
   void expect_no_staging() const {
-    EXPECT_EQ(entries(top_), (std::set<std::string>{"one", "other", "page.html"}));
+    EXPECT_EQ(test::entries(top_), (std::set<std::string>{"one", "other", "page.html"}));
   }
 };
 
@@ -711,9 +715,9 @@ TEST_F(Together, AreAllNew) {
 TEST_F(Together, AreAllOldWhereAFileAppearsMeanwhile) {
   make("old");
   const fs::path mine = top_ / "other" / "thesis.tex";
-  EXPECT_THROW(make("new", [&] { write(mine, "precious"); }), OutputError);
+  EXPECT_THROW(make("new", [&] { test::write(mine, "precious"); }), OutputError);
   EXPECT_EQ(said(), std::set<std::string>{"old"});
-  EXPECT_EQ(read(mine), "precious");
+  EXPECT_EQ(test::read(mine), "precious");
   expect_no_staging();
 }
 
@@ -724,7 +728,7 @@ TEST_F(Together, AreAllOldWhereAFileAppearsInTheLastMoment) {
   EXPECT_THROW(make("new"), OutputError);
   exchange = Exchange::works;
   EXPECT_EQ(said(), std::set<std::string>{"old"});
-  EXPECT_EQ(read(late), "precious");
+  EXPECT_EQ(test::read(late), "precious");
   expect_no_staging();
 }
 
@@ -787,4 +791,4 @@ TEST_F(Together, DoNotGoIntoEachOther) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -10,7 +10,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,15 +20,15 @@ class ProvenanceTest : public testing::Test {
   ProvenanceTest() { input::forget_inputs(); }
   ~ProvenanceTest() override { input::forget_inputs(); }
 
-  TemporaryFolder temporary_;
+  test::TemporaryFolder temporary_;
   fs::path top_ = fs::canonical(temporary_.path());
 };
 
 TEST_F(ProvenanceTest, FilesReadAreThoseOfTheProcessWithoutItsOutputs) {
-  write(top_ / "scene.xml", "<mujoco/>");
+  test::write(top_ / "scene.xml", "<mujoco/>");
   input::note_input(top_ / "scene.xml");
   Output output(top_ / "out", {"metrics.json"});
-  write(output.staging() / "metrics.json", "{}");
+  test::write(output.staging() / "metrics.json", "{}");
   input::note_input(output.staging() / "metrics.json");  // as when it is read back
   const Provenance provenance = provenance_of({{"seed", 1}});
   ASSERT_EQ(provenance.read.size(), 1U);
@@ -72,10 +72,10 @@ TEST_F(ProvenanceTest, FirstDifferenceIsNamedWithBothValues) {
 }
 
 TEST_F(ProvenanceTest, FileThatIsNotAsItWasReadIsNamed) {
-  write(top_ / "scene.xml", "one");
+  test::write(top_ / "scene.xml", "one");
   const Provenance provenance{.facts = {}, .read = {{"scene.xml", input::sha256("one")}}};
   EXPECT_EQ(changed_since(provenance, top_), "");
-  write(top_ / "scene.xml", "two");
+  test::write(top_ / "scene.xml", "two");
   EXPECT_EQ(changed_since(provenance, top_), "scene.xml was changed since");
   fs::remove(top_ / "scene.xml");
   EXPECT_EQ(changed_since(provenance, top_), "scene.xml is missing");
@@ -86,17 +86,17 @@ TEST_F(ProvenanceTest, UnitsThatHaveReadDifferentStatesDoNotJoin) {
   whole.add_read({.facts = {}, .read = {{"x", "1"}}}, "a seed 1");
   whole.add_read({.facts = {}, .read = {{"x", "1"}, {"y", "2"}}}, "a seed 2");
   EXPECT_EQ(whole.read, (std::map<std::string, std::string>{{"x", "1"}, {"y", "2"}}));
-  const std::string message = refusal_of<std::runtime_error>([&] {
+  const std::string message = test::refusal_of<std::runtime_error>([&] {
     whole.add_read({.facts = {}, .read = {{"y", "3"}}}, "b seed 1");
   });
   EXPECT_TRUE(message.starts_with("b seed 1 has read y in another state")) << message;
 }
 
 TEST_F(ProvenanceTest, ResultWithoutOneIsRefused) {
-  write(top_ / "run.json", R"({"command": "lcs run", "seed": 1})");
-  EXPECT_EQ(refusal_of<input::Error>([&] { read_how_made(top_); }),
+  test::write(top_ / "run.json", R"({"command": "lcs run", "seed": 1})");
+  EXPECT_EQ(test::refusal_of<input::Error>([&] { read_how_made(top_); }),
             (top_ / "run.json").string() + ": read is missing; make the result again");
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -72,7 +72,7 @@ TEST(Equations, EveryRowNamesCodeAndTestsThatExist) {
     bool has_tests = false;
     for (const std::string& word : quoted(row.cells[2])) {
       if (word.ends_with(".cpp") || word.ends_with(".h")) {
-        source = lcs::bench::read(kFilter / word);
+        source = lcs::test::read(kFilter / word);
         EXPECT_FALSE(source.empty()) << word;
       } else if (word.find('.') != std::string::npos) {
         has_tests = true;

@@ -174,7 +174,7 @@ struct Drifting {
       error.advance(told, lasts);
       const MotionField field = error.without(told);
       left = error_mps - (field.displacement_C_m() - told.displacement_C_m()) / kDt_s;
-      error.see({Vector3d::Zero(), left / 2, error.covariance() / 2});
+      error.update({Vector3d::Zero(), left / 2, error.covariance() / 2});
     }
     return left;
   }
@@ -195,7 +195,7 @@ TEST(VelocityErrors, AreAsLargeAsToldAllTheWhile) {
         const double sigma_mps = std::hypot(told_sigma_mps, 0.02 * speed_mps);
         const Eigen::Matrix3d expected = sigma_mps * sigma_mps * Eigen::Matrix3d::Identity();
         EXPECT_LT((error.covariance() - expected).norm(), 1e-12);
-        if (k == 10) error.see({Vector3d::Zero(), {0.1, 0, 0}, expected});
+        if (k == 10) error.update({Vector3d::Zero(), {0.1, 0, 0}, expected});
       }
     }
   }
@@ -249,11 +249,11 @@ TEST(VelocityErrors, OfMoreThanThreeDeviationsAreNotBelieved) {
   };
   for (int k = 1; k <= 3; ++k) {  // up to 2.7 deviations
     error.advance(told, 1);
-    EXPECT_LT((error.see(fix) - fix.velocity_mps).norm(), 1e-12);
+    EXPECT_LT((error.update(fix) - fix.velocity_mps).norm(), 1e-12);
     EXPECT_NEAR(known_mps().norm(), k * 0.9 * kSigma_mps, 1e-9);
   }
   error.advance(told, 1);
-  EXPECT_LT((error.see(fix) + 3 * fix.velocity_mps).norm(), 1e-9) << "back to the told velocity";
+  EXPECT_LT((error.update(fix) + 3 * fix.velocity_mps).norm(), 1e-9) << "back to the told velocity";
   EXPECT_LT(known_mps().norm(), 1e-9);
 }
 

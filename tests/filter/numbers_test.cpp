@@ -41,7 +41,7 @@ std::set<std::string> constants() {
         room == "detect" || room == "ego_motion" || room == "vectors") {
       continue;
     }
-    const std::string text = bench::read(entry.path());
+    const std::string text = test::read(entry.path());
     for (std::sregex_iterator c(text.begin(), text.end(), constant), end; c != end; ++c) {
       const std::string names = (*c)[1];
       for (std::sregex_iterator n(names.begin(), names.end(), name); n != end; ++n) {
@@ -60,7 +60,7 @@ TEST(Numbers, AreNoMoreThanTheyWere) {
 }
 
 TEST(Numbers, HaveASourceEach) {
-  const std::string model = bench::read(kFilter / "MODEL.md");
+  const std::string model = test::read(kFilter / "MODEL.md");
   const std::string table = model.substr(model.find("## Symbols"));
   for (const std::string& key : keys()) {
     EXPECT_NE(table.find('`' + key + '`'), std::string::npos) << key;

@@ -18,7 +18,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 template <typename Action>
 std::string refusal(Action action) {
-  return bench::refusal_of<std::invalid_argument>(action);
+  return test::refusal_of<std::invalid_argument>(action);
 }
 
 TEST(Parameters, LabCarriesTheTableOfThePaper) {

@@ -80,7 +80,7 @@ TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
                                                   field.displacement_C_m(), kNoise2_px2)
                          : point.predicted(vga(), field, kUsual.ego_share);
           last_miss = (point.place_px - x).norm();
-          point.see(x, kNoise2_px2, depth_bounds(field, x));
+          point.update(x, kNoise2_px2, depth_bounds(field, x));
           expect_covariance<3>(point.covariance);
         }
         // Half a standard deviation of the filter's own uncertainty: the rest comes from the
@@ -114,7 +114,7 @@ TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
   for (std::size_t k = 1; k < seen.places.size(); ++k) {
     const Vec2 noisy = seen.places[k] + random.vector(0.6).head<2>();
     if (k > 1) point = point.predicted(vga(), field, 0);
-    point.see(noisy, kNoise2_px2, bounds);
+    point.update(noisy, kNoise2_px2, bounds);
     const double slope = -vga().focal_px * d * static_cast<double>(k);
     n += 1, s += slope, ss += slope * slope, x += noisy.x(), sx += slope * noisy.x();
   }
@@ -162,7 +162,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
         StaticPoint::seen_once(px, vga(), field, field.displacement_C_m(), kNoise2_px2);
     const Vec2 x = px - Vec2(vga().focal_px * 0.1 * inverse_depth_pm, 0);
     const double unbounded = density(point, x, kNoise2_px2);
-    const double bounded = point.see(x, kNoise2_px2, bounds);
+    const double bounded = point.update(x, kNoise2_px2, bounds);
     EXPECT_GE(point.inverse_depth_pm, bounds.least_pm);
     EXPECT_LE(point.inverse_depth_pm, bounds.most_pm);
     return bounded / unbounded;
@@ -195,7 +195,7 @@ TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
       const Vector3d& x_C = world.points[0].x_C;
       const Vec2 x = testing::project(world.camera, x_C);
       if (k > 0) point = point.predicted(vga(), field, kUsual.ego_share);
-      point.see(x + random.vector(1).head<2>(), kNoise2_px2, bounds);
+      point.update(x + random.vector(1).head<2>(), kNoise2_px2, bounds);
       // The depth error follows the axis error: 1 px of 400, of 0.01 rad per frame.
       EXPECT_NEAR(point.inverse_depth_pm * x_C.z(), 1, 1e-3);
       EXPECT_NEAR(std::sqrt(point.covariance(2, 2)) / point.inverse_depth_pm, sigma, 1e-9);
@@ -213,7 +213,7 @@ TEST(StaticPoint, IsFiniteWhereTheCameraGoesThroughIt) {
       StaticPoint::seen_once(field.rotated(x), vga(), field, field.displacement_C_m(), kNoise2_px2);
   for (int k = 0; k < 5; ++k) {
     if (k > 0) point = point.predicted(vga(), field, kUsual.ego_share);
-    const double density = point.see(x, kNoise2_px2, depth_bounds(field, x));
+    const double density = point.update(x, kNoise2_px2, depth_bounds(field, x));
     EXPECT_TRUE(std::isfinite(density));
     EXPECT_TRUE(point.place_px.allFinite() && point.covariance.allFinite());
   }
@@ -247,7 +247,7 @@ TEST(OwnMotion, IsTheLeastSquaresFitOfAConstantVelocity) {
   OwnMotion motion = OwnMotion::first(places[0], places[1], kNoise2_px2, kDt_s);
   for (std::size_t k = 2; k < places.size(); ++k) {
     motion = motion.predicted(field, 0);
-    motion.see(places[k], kNoise2_px2);
+    motion.update(places[k], kNoise2_px2);
     const double last = static_cast<double>(k), mean = last / 2;
     double tt = 0;
     Vec2 tx = Vec2::Zero(), x = Vec2::Zero();
@@ -277,7 +277,7 @@ TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
     EXPECT_GT(there, motion.density(places[k] + Vec2(1, 0), kNoise2_px2));
     EXPECT_EQ(motion.density(places[k] + Vec2(1, 0), kNoise2_px2),
               motion.density(places[k] - Vec2(1, 0), kNoise2_px2));
-    motion.see(places[k], kNoise2_px2);
+    motion.update(places[k], kNoise2_px2);
     expect_covariance<2>(motion.covariance);
     // Process noise is added in each frame: the variance falls to a steady state and oscillates
     // about it by less than 1 %.

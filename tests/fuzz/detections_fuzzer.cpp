@@ -13,13 +13,13 @@ using namespace lcs;
 constexpr int kWidth_px = 64, kHeight_px = 48;
 
 /// Three frames of a few corners.
-const bench::Recording& sequence(bool has_camera) {
+const recording::Recording& sequence(bool has_camera) {
   static const auto make = [](bool is_known) {
-    bench::Recording made;
+    recording::Recording made;
     if (is_known) made.camera = Intrinsics{50, {31.5, 23.5}, kWidth_px, kHeight_px};
     made.scenario = "fuzz";
     for (int k = 0; k < 3; ++k) {
-      bench::FrameRecord& frame = made.frames.emplace_back();
+      recording::FrameRecord& frame = made.frames.emplace_back();
       frame.index = k;
       frame.t_ns = 100'000'000LL * k;
       for (int i = 0; i < 4; ++i) {
@@ -30,15 +30,15 @@ const bench::Recording& sequence(bool has_camera) {
     }
     return made;
   };
-  static const bench::Recording without = make(false), with = make(true);
+  static const recording::Recording without = make(false), with = make(true);
   return has_camera ? with : without;
 }
 
-void check(const bench::Detections& detections) {
+void check(const recording::Detections& detections) {
   fuzz::require(detections.recording.frames.size() == sequence(true).frames.size(),
                 "no frame is lost or made");
   fuzz::require(detections.counts.corners() >= 0, "no more rows are left out than there are");
-  for (const bench::FrameRecord& frame : detections.recording.frames) {
+  for (const recording::FrameRecord& frame : detections.recording.frames) {
     fuzz::require(frame.verdicts.size() == frame.corners_px.size(), "each corner has a verdict");
     for (const Square& square : frame.layers.squares) {
       fuzz::require(square.location.allFinite() && square.half_size.minCoeff() >= 0,
@@ -50,7 +50,7 @@ void check(const bench::Detections& detections) {
       fuzz::require((mask.box & picture) == mask.box, "masks lie in the picture");
     }
     for (const Square& square : frame.layers.squares) {
-      const auto edges = bench::edges_of(square);
+      const auto edges = recording::edges_of(square);
       fuzz::require(edges[0] <= kWidth_px + 1 && edges[1] <= kHeight_px + 1 && edges[2] >= -1 &&
                         edges[3] >= -1,
                     "boxes touch the picture");
@@ -59,16 +59,16 @@ void check(const bench::Detections& detections) {
 }
 
 /// Read, written and read again, or refused.
-void read(const std::filesystem::path& file, const bench::Recording& recording) {
+void read(const std::filesystem::path& file, const recording::Recording& recording) {
   try {
-    const bench::Detections detections = bench::read_detections(file, recording);
+    const recording::Detections detections = recording::read_detections(file, recording);
     check(detections);
     const std::filesystem::path copy = fuzz::work_folder() / "again.csv";
-    bench::write_detections(copy, detections.recording);
-    const bench::Detections again = bench::read_detections(copy, recording);
+    scoring::write_detections(copy, detections.recording);
+    const recording::Detections again = recording::read_detections(copy, recording);
     for (std::size_t k = 0; k < recording.frames.size(); ++k) {
-      const bench::FrameRecord& a = detections.recording.frames[k];
-      const bench::FrameRecord& b = again.recording.frames[k];
+      const recording::FrameRecord& a = detections.recording.frames[k];
+      const recording::FrameRecord& b = again.recording.frames[k];
       fuzz::require(a.verdicts == b.verdicts, "verdicts survive writing and reading");
       fuzz::require(a.layers.squares.size() == b.layers.squares.size(), "and boxes do");
       fuzz::require(a.layers.rebel_circles.size() == b.layers.rebel_circles.size(), "and circles");

@@ -1,5 +1,5 @@
-// Labelled boxes in the formats of MOTChallenge, COCO or KITTI: read as valid boxes, or refused by an
-// error that names the file.
+// Labelled boxes in the formats of MOTChallenge, COCO or KITTI: read as valid boxes, or refused by
+// an error that names the file.
 #include <cmath>
 
 #include "scenarios/scenario.h"
@@ -11,8 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path file = fuzz::work_folder() / "labels";
   fuzz::write_file(file, fuzz::text_of(data, size));
   try {
-    bench::Labels labels = bench::read_labels(file);
-    std::vector<bench::Labels::Recorded> pictures;
+    recording::Labels labels = recording::read_labels(file);
+    std::vector<recording::Labels::Recorded> pictures;
     for (int number = 0; number < 8; ++number) {
       pictures.push_back({number, std::to_string(number) + ".png"});
     }
@@ -22,9 +22,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return 0;  // of another recording
     }
     for (int number = 0; number < 8; ++number) {
-      const bench::Labels::Boxes* boxes = labels.of(number);
+      const recording::Labels::Boxes* boxes = labels.of(number);
       if (!boxes) continue;
-      for (const bench::LabelledBox& box : *boxes) {
+      for (const recording::LabelledBox& box : *boxes) {
         // at a million pixels the width of a thin box may round to zero
         fuzz::require(box.right >= box.left && box.bottom >= box.top && box.id >= -1,
                       "boxes are boxes");

@@ -72,7 +72,7 @@ constexpr const char* kFiles[] = {
 scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
   scenario::Scenario scenario;
   if (bits & 1) scenario.ego_motion = scenario::EgoMotionSource::truth;
-  scenario::Recorded& recording = scenario.recording.emplace();
+  scenario::RecordingSource& recording = scenario.recording.emplace();
   recording.source = {"asked", 1};
   recording.path = folder;
   if (bits & 2) recording.fps = 10;

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 const cv::Size kSize_px(640, 480);
 
 constexpr const char* kFiles[] = {
-    bench::kLayersFile, bench::kTruthFile,    bench::kFramesFile, bench::kMetricsFile,
-    bench::kEventsFile, bench::kPicturesFile, suite::kSuiteFile,
+    recording::kLayersFile, recording::kTruthFile, scoring::kFramesFile, scoring::kMetricsFile,
+    scoring::kEventsFile,   output::kPicturesFile, suite::kSuiteFile,
 };
 
 template <class Read>
@@ -38,29 +38,30 @@ void read_or_be_refused(const fs::path& folder, Read read) {
 }
 
 void score_and_store(const fs::path& folder) {
-  bench::Recording recording = bench::read_recording(folder);
-  if (fs::exists(folder / bench::kFramesFile)) {
-    bench::read_times(folder / bench::kFramesFile, recording);
+  recording::Recording recording = recording::read_recording(folder);
+  if (fs::exists(folder / scoring::kFramesFile)) {
+    scoring::read_times(folder / scoring::kFramesFile, recording);
   }
-  for (const auto& [name, figure] : bench::score(recording)) {
+  for (const auto& [name, figure] : scoring::score(recording)) {
     fuzz::require(!figure || std::isfinite(*figure), "figures are finite");
   }
-  bench::all_events(recording);
+  scoring::all_events(recording);
   const fs::path copy = folder / "copy";
   fs::create_directory(copy);
-  bench::RecordingWriter writer(copy, recording);
-  for (const bench::FrameRecord& frame : recording.frames) writer.write(frame);
+  recording::RecordingWriter writer(copy, recording);
+  for (const recording::FrameRecord& frame : recording.frames) writer.write(frame);
   writer.close();
-  const bench::Recording again = bench::read_recording(copy);
+  const recording::Recording again = recording::read_recording(copy);
   fuzz::require(again.frames.size() == recording.frames.size(), "all frames are stored");
   for (std::size_t i = 0; i < again.frames.size(); ++i) {
-    fuzz::require(bench::layers_line(again.frames[i]) == bench::layers_line(recording.frames[i]) &&
-                      bench::truth_line(again.frames[i]) == bench::truth_line(recording.frames[i]),
-                  "a frame is read as it was written");
+    fuzz::require(
+        recording::layers_line(again.frames[i]) == recording::layers_line(recording.frames[i]) &&
+            recording::truth_line(again.frames[i]) == recording::truth_line(recording.frames[i]),
+        "a frame is read as it was written");
   }
 }
 
-void decode(const bench::FramePictures& pictures, std::size_t i) {
+void decode(const output::FramePictures& pictures, std::size_t i) {
   try {
     double scale = 1;
     fuzz::require(!pictures.at(i, scale).empty(), "a picture has pixels");
@@ -75,11 +76,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fs::path folder = fuzz::work_folder() / "run";
   fuzz::write_sections(folder, kFiles, fuzz::text_of(data, size));
   read_or_be_refused(folder, [&] { score_and_store(folder); });
-  read_or_be_refused(folder, [&] { bench::read_metrics(folder / bench::kMetricsFile); });
-  read_or_be_refused(folder, [&] { bench::read_events(folder / bench::kEventsFile); });
+  read_or_be_refused(folder, [&] { scoring::read_metrics(folder / scoring::kMetricsFile); });
+  read_or_be_refused(folder, [&] { scoring::read_events(folder / scoring::kEventsFile); });
   read_or_be_refused(folder, [&] { suite::read_suite(folder); });
   read_or_be_refused(folder, [&] {
-    const bench::FramePictures pictures(folder / bench::kPicturesFile, kSize_px);
+    const output::FramePictures pictures(folder / output::kPicturesFile, kSize_px);
     for (std::size_t i = 0; i < pictures.size(); ++i) decode(pictures, i);
   });
   return 0;

@@ -44,7 +44,7 @@ scenario::Scenario scenario_in(const fs::path& scene, std::size_t choice) {
   s.frames = 1;
   s.ego.phases = {{.speed_mps = 0.5}};
   if (choice % 2 == 1) s.ego.drive = scenario::Drive::wheeled;
-  if (choice % 4 == 3) s.ground = scenario::Ground{};
+  if (choice % 4 == 3) s.ground = scenario::RoughGround{};
   scenario::Actor actor;
   actor.name = "actor";
   actor.source = {s.file.string(), 2};

@@ -23,7 +23,7 @@ namespace {
 constexpr FileKind kKind{kMebibyte, "give a table"};
 
 std::string refusal(const std::filesystem::path& file) {
-  return bench::refusal_of<Error>([&] { read_file(file, kKind); });
+  return test::refusal_of<Error>([&] { read_file(file, kKind); });
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
@@ -77,7 +77,7 @@ TEST(InputFile, MissingOrTooLargeFileIsRefused) {
 }
 
 TEST(InputFile, TheLineThatNamesItIsBlamed) {
-  EXPECT_EQ(bench::refusal_of<Error>([] {
+  EXPECT_EQ(test::refusal_of<Error>([] {
               InputFile("/dev/zero", kKind, {"scene.xml", 7});
             }),
             "scene.xml:7: '/dev/zero': this is a device; give a table");
@@ -115,14 +115,14 @@ TEST(InputFile, ACompressedOneIsReadLikeItsText) {
             0);
   EXPECT_EQ(lines_of(compressed), (std::vector<std::string>{"one", "two", "three"}));
 
-  const std::string bytes = bench::read(compressed);
-  bench::write(compressed, bytes.substr(0, bytes.size() - 3));
+  const std::string bytes = test::read(compressed);
+  test::write(compressed, bytes.substr(0, bytes.size() - 3));
   EXPECT_EQ(refusal(compressed),
             compressed.string() + ": this is no whole gzip file; give a table");
-  bench::write(compressed, "one\n");
+  test::write(compressed, "one\n");
   EXPECT_EQ(refusal(compressed),
             compressed.string() + ": this is no whole gzip file; give a table");
-  bench::write(compressed, "");
+  test::write(compressed, "");
   EXPECT_NE(refusal(compressed).find("the file is empty"), std::string::npos);
   ASSERT_EQ(std::system((shell + "head -c 3000000 /dev/zero | gzip > table.gz").c_str()), 0);
   EXPECT_EQ(refusal(compressed),
@@ -135,7 +135,7 @@ TEST(InputFile, AGzipMemberIsBoundedWhateverTheSizeOfItsKind) {
   ASSERT_EQ(std::system(("head -c 1100M /dev/zero | gzip -1 > " + bomb.string()).c_str()), 0);
   const auto read = [&] { read_file(bomb, {64 * kGibibyte, "give a table"}); };
   EXPECT_EQ(
-      bench::refusal_of<Error>(read),
+      test::refusal_of<Error>(read),
       bomb.string() + ": the file has 1 GiB or more in one gzip member; decompress it (gunzip)");
 }
 

@@ -10,8 +10,8 @@
 namespace lcs::input {
 namespace {
 
-using bench::TemporaryFolder;
-using bench::write;
+using test::TemporaryFolder;
+using test::write;
 
 namespace fs = std::filesystem;
 

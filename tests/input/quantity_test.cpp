@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::string refusal(std::string_view text, Dimension dimension) {
-  return bench::refusal_of<std::invalid_argument>([&] { parse_quantity(text, dimension); });
+  return test::refusal_of<std::invalid_argument>([&] { parse_quantity(text, dimension); });
 }
 
 TEST(Quantity, ANumberWithoutUnitIsInTheBaseUnit) {

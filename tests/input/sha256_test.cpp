@@ -8,8 +8,8 @@
 namespace lcs::input {
 namespace {
 
-using bench::TemporaryFolder;
-using bench::write;
+using test::TemporaryFolder;
+using test::write;
 
 TEST(Sha256, IsThatOfTheStandard) {
   // FIPS 180-4's own examples.

@@ -41,7 +41,7 @@ double largest(const std::vector<double>& values) {
 
 /// Error of every landmark under one model after one exact motion, px.
 std::vector<double> errors_after(const PointSet& points, const sim::Pose& T_CN,
-                                 const Model& model) {
+                                 const FieldModel& model) {
   const FieldParameters field;
   return errors(step_to(points.camera, T_CN, 0.1, field), model, landmarks(points, T_CN, field));
 }
@@ -58,7 +58,7 @@ TEST(KinematicsTheory, SecondOrderIsWhatTheFirstOrderFieldLacks) {
       first_order.rotation = RotationModel::first_order;
       sim::Pose T_CN;
       T_CN.R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-      const Step step = step_to(vga(), T_CN, 1, first_order);
+      const FieldStep step = step_to(vga(), T_CN, 1, first_order);
       double worst = 0;
       for (const Landmark& landmark : landmarks(points, T_CN, first_order)) {
         const Vec2 error =
@@ -195,7 +195,7 @@ TEST(KinematicsModels, LearntDepthErrsByAFractionOfAPixel) {
 /// Two independent truths: the simulator's label of a corner, and the pinhole with its depth.
 TEST(KinematicsPoints, TheDepthOfTwoSightingsIsFound) {
   const FieldParameters parameters;
-  const Step step = step_to(vga(), {}, 0.1, parameters);
+  const FieldStep step = step_to(vga(), {}, 0.1, parameters);
   const MotionField field(step.camera, step.motion, parameters);
   for (const Vector3d& moved_m :
        {Vector3d(0, 0, 0.2), Vector3d(0.1, -0.2, 0), Vector3d(0.1, 0, -0.2)}) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 /// Height of title, captions and legends.
@@ -360,4 +360,4 @@ TEST_P(Panels, NoPanelPaintsOverAnother) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::output

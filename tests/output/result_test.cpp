@@ -9,14 +9,14 @@
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 constexpr int kCorners = 500;
 
 /// A mover that is missed and a wall of which some corners are called rebels, in each frame.
-FrameRecord frame_of(int index) {
-  FrameMaker frame(index);
+recording::FrameRecord frame_of(int index) {
+  test::FrameMaker frame(index);
   frame.object(1, {100, 100, 160, 160}, true);
   for (int i = 0; i < kCorners; ++i) {
     const Eigen::Vector2f px(static_cast<float>(i % 25), static_cast<float>(i / 25));
@@ -41,10 +41,10 @@ std::size_t heap_bytes() {
 }
 
 TEST(Result, KeepsNumbersOfALateFrameAndNotTheFrame) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ResultOptions options;
   options.events = true;
-  Result result(folder.path() / "run", recording_of({}), {640, 480}, options);
+  Result result(folder.path() / "run", test::recording_of({}), {640, 480}, options);
   const cv::Mat3b image(480, 640, cv::Vec3b(90, 90, 90));
   const auto add = [&](int first, int end) {
     for (int k = first; k < end; ++k) result.add(frame_of(k), image);
@@ -56,19 +56,20 @@ TEST(Result, KeepsNumbersOfALateFrameAndNotTheFrame) {
   const auto per_frame =
       (static_cast<double>(heap_bytes()) - static_cast<double>(before)) / (kAll - kFirst);
   const std::size_t without_frame = heap_bytes();
-  const FrameRecord kept = frame_of(kAll);
+  const recording::FrameRecord kept = frame_of(kAll);
   if (heap_bytes() == without_frame) GTEST_SKIP() << "this build's heap is not glibc's";
   // Some 120 bytes of figures and 100 for each of the errors, twice for vectors that grow.
   EXPECT_LT(per_frame, 2000);
   EXPECT_GT(heap_bytes() - without_frame, 50'000u) << "which a frame takes";
-  const Metrics metrics = result.finish(std::nullopt);
-  EXPECT_EQ(value(metrics, "frames"), kAll);
-  std::set<EventFamily> families;
-  for (const Event& event : read_events(result.output().staging() / kEventsFile)) {
-    families.insert(family_of(event.kind));
+  const scoring::Metrics metrics = result.finish(std::nullopt);
+  EXPECT_EQ(scoring::value(metrics, "frames"), kAll);
+  std::set<scoring::EventFamily> families;
+  for (const scoring::ScoredEvent& event :
+       scoring::read_events(result.output().staging() / scoring::kEventsFile)) {
+    families.insert(scoring::family_of(event.kind));
   }
   EXPECT_EQ(families.size(), 3u) << "errors of rebels, circles and squares were found";
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -22,7 +22,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 using sim::Label;
@@ -31,7 +31,7 @@ using sim::Label;
 Recording sequence() {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 6; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     frame.corner(Verdict::rebel, Label::fixed, 0, false, {10, 20});
     frame.corner(Verdict::rebel, Label::rebel, 1, false, {30, 20});
     frame.corner(Verdict::ignored, Label::rebel, 1, false, {50, 20});
@@ -41,7 +41,7 @@ Recording sequence() {
     frame.record().times = FrameTimes{.detect_ms = 1, .filter_ms = 2};
     frames.push_back(frame);
   }
-  return recording_of(frames);
+  return test::recording_of(frames);
 }
 
 /// The same sequence from a camera of 96 x 48 pixels.
@@ -59,13 +59,13 @@ class DetectionsTest : public testing::Test {
     return read_detections(path_, of);
   }
   std::string error(const std::string& text, const Recording& of = sequence()) {
-    const std::string message = refusal_of<input::Error>([&] { detections(text, of); });
+    const std::string message = test::refusal_of<input::Error>([&] { detections(text, of); });
     const std::string where = path_.string() + ":";
     EXPECT_TRUE(message.starts_with(where)) << message;
     return message.substr(std::min(where.size(), message.size()));
   }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "mine.csv";
 };
 
@@ -81,13 +81,14 @@ TEST_F(DetectionsTest, ReplaceAllThatTheSequencesOwnDetectorSaid) {
     EXPECT_EQ(frame.layers.dimension(), 0u);
     EXPECT_FALSE(frame.times);
   }
-  const Metrics metrics = score(nothing.recording);
-  EXPECT_EQ(value(metrics, "rebel.recall"), 0);
+  const scoring::Metrics metrics = scoring::score(nothing.recording);
+  EXPECT_EQ(scoring::value(metrics, "rebel.recall"), 0);
   for (const char* unknown : {"dimension.mean", "dimension.max", "edges.rematched",
                               "time.filter_ms_median", "sim.frames_per_second"}) {
-    EXPECT_FALSE(value(metrics, unknown)) << unknown;
+    EXPECT_FALSE(scoring::value(metrics, unknown)) << unknown;
   }
-  EXPECT_EQ(value(metrics, "dimension.corners_mean"), 4) << "of the frames, not of the detector";
+  EXPECT_EQ(scoring::value(metrics, "dimension.corners_mean"), 4)
+      << "of the frames, not of the detector";
 }
 
 TEST_F(DetectionsTest, NameCornersByPlaceOrByIndex) {
@@ -119,9 +120,9 @@ TEST_F(DetectionsTest, CountVerdictsThatAreOnNoCornerOrOnOneThatHasOne) {
 
 TEST_F(DetectionsTest, OfTwoCornersInReachTakeTheNearerThatIsFree) {
   Recording close =
-      recording_of({FrameMaker(0)
-                        .corner(Verdict::normal, Label::fixed, 0, false, {10, 10})
-                        .corner(Verdict::normal, Label::fixed, 0, false, {10.5, 10})});
+      test::recording_of({test::FrameMaker(0)
+                              .corner(Verdict::normal, Label::fixed, 0, false, {10, 10})
+                              .corner(Verdict::normal, Label::fixed, 0, false, {10.5, 10})});
   const auto verdicts = [&](const char* text) {
     std::ofstream(path_) << text;
     return read_detections(path_, close).recording.frames[0].verdicts;
@@ -143,8 +144,9 @@ TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
   // The truth's box is columns 20 to 59, rows 10 to 39.
   std::string rows;
   for (int k = 3; k < 6; ++k) rows += fmt::format("{},box,7,20,10,40,30\n", k);
-  const Metrics metrics = score(detections(rows).recording);
-  EXPECT_EQ(value(metrics, "truth.boxes"), 0) << "with two corners on it, it is not eligible";
+  const scoring::Metrics metrics = scoring::score(detections(rows).recording);
+  EXPECT_EQ(scoring::value(metrics, "truth.boxes"), 0)
+      << "with two corners on it, it is not eligible";
   const Square box = detections(rows).recording.frames[3].layers.squares.at(0);
   EXPECT_EQ(box.id, 7u);
   EXPECT_EQ(box.location, Vec2(39.5, 24.5));
@@ -197,7 +199,9 @@ TEST_F(DetectionsTest, CirclesCountForFalseObjects) {
   // One circle on the mover, one on empty ground, in three frames after the warm-up.
   std::string rows;
   for (int k = 3; k < 6; ++k) rows += fmt::format("{0},circle,40,25,5\n{0},circle,200,200,5\n", k);
-  EXPECT_EQ(value(score(detections(rows).recording), "rebel.false_objects_per_100_frames"), 100);
+  EXPECT_EQ(scoring::value(scoring::score(detections(rows).recording),
+                           "rebel.false_objects_per_100_frames"),
+            100);
 }
 
 TEST_F(DetectionsTest, WithoutCirclesFalseObjectsAreUnknownAndNotNone) {
@@ -206,11 +210,12 @@ TEST_F(DetectionsTest, WithoutCirclesFalseObjectsAreUnknownAndNotNone) {
   const Detections silent = detections(rebels);
   EXPECT_FALSE(silent.recording.detector.circles);
   for (const char* figure : kFigures)
-    EXPECT_FALSE(value(score(silent.recording), figure)) << figure;
+    EXPECT_FALSE(scoring::value(scoring::score(silent.recording), figure)) << figure;
   // A row without values means that there are no circles.
   const Detections none = detections(rebels + "0,circle\n");
   EXPECT_TRUE(none.recording.detector.circles);
-  EXPECT_EQ(value(score(none.recording), "rebel.false_objects_per_100_frames"), 0);
+  EXPECT_EQ(scoring::value(scoring::score(none.recording), "rebel.false_objects_per_100_frames"),
+            0);
 }
 
 TEST_F(DetectionsTest, TakeSpacesCommentsEmptyLinesAndAHeader) {
@@ -382,7 +387,7 @@ TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
 TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
   for (const std::filesystem::path& path : {folder_.path() / "none.csv", folder_.path()}) {
     const bool is_folder = path == folder_.path();
-    EXPECT_EQ(refusal_of<input::Error>([&] { read_detections(path, sequence()); }),
+    EXPECT_EQ(test::refusal_of<input::Error>([&] { read_detections(path, sequence()); }),
               fmt::format("{}: {}; name a CSV file of detections", path.string(),
                           is_folder ? "this is a folder" : "there is no such file"));
   }
@@ -396,7 +401,7 @@ Recording awkward() {
   };
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 12; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     for (int i = 0; i < 30; ++i) {
       const bool moves = i % 3 == 0;
       frame.corner(static_cast<Verdict>(random() % 4), moves ? Label::rebel : Label::fixed, moves,
@@ -425,7 +430,7 @@ Recording awkward() {
     thin.half_size = {0, number(20, 30)};
     frames.push_back(frame);
   }
-  return recording_of(frames);
+  return test::recording_of(frames);
 }
 
 class StoredDetectionsTest : public DetectionsTest, public testing::WithParamInterface<bool> {};
@@ -437,19 +442,20 @@ TEST_P(StoredDetectionsTest, ReadAgainHaveTheSameFiguresToTheLastBit) {
     recording.camera =
         Intrinsics{.focal_px = 300, .centre_px = {159.5, 119.5}, .width_px = 320, .height_px = 240};
   }
-  write_detections(path_, recording);
+  scoring::write_detections(path_, recording);
   const Detections again = read_detections(path_, recording);
   EXPECT_EQ(again.counts.without_corner + again.counts.repeated, 0);
   for (std::size_t k = 0; k < recording.frames.size(); ++k) {
     EXPECT_EQ(again.recording.frames[k].verdicts, recording.frames[k].verdicts);
   }
-  const Metrics before = score(recording), after = score(again.recording);
-  EXPECT_GT(value(before, "square.mean_iou").value(), 0.5);
-  EXPECT_GT(value(before, "square.mask_mean_iou").value(), 0.2);
-  EXPECT_GT(value(before, "rebel.false_objects_per_100_frames").value(), 0);
+  const scoring::Metrics before = scoring::score(recording),
+                         after = scoring::score(again.recording);
+  EXPECT_GT(scoring::value(before, "square.mean_iou").value(), 0.5);
+  EXPECT_GT(scoring::value(before, "square.mask_mean_iou").value(), 0.2);
+  EXPECT_GT(scoring::value(before, "rebel.false_objects_per_100_frames").value(), 0);
   for (const auto& [name, figure] : before) {
     if (name.starts_with("rebel.") || name.starts_with("square.") || name.starts_with("truth.")) {
-      EXPECT_EQ(value(after, name), figure) << name;
+      EXPECT_EQ(scoring::value(after, name), figure) << name;
     }
   }
 }
@@ -514,7 +520,8 @@ std::string any_row(std::mt19937& random) {
 }
 
 /// Requires bitwise equal and finite figures.
-void expect_same(const Metrics& before, const Metrics& after, const std::string& rows) {
+void expect_same(const scoring::Metrics& before, const scoring::Metrics& after,
+                 const std::string& rows) {
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto& [name, figure] = before[i];
@@ -535,7 +542,7 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
     std::string rows;
     for (int i = 0; i < 30; ++i) {
       const std::string row = any_row(random) + '\n';
-      if (refusal_of<input::Error>([&] { detections(rows + row, frames); }) ==
+      if (test::refusal_of<input::Error>([&] { detections(rows + row, frames); }) ==
           "nothing was refused") {
         rows += row;
         ++kept;
@@ -544,7 +551,7 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
       }
     }
     const Recording said = detections(rows, frames).recording;
-    const Metrics figures = score(said);
+    const scoring::Metrics figures = scoring::score(said);
 
     const std::filesystem::path run = folder_.path() / "run";
     std::filesystem::create_directories(run);
@@ -552,10 +559,10 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
     for (const FrameRecord& frame : said.frames) writer.write(frame);
     writer.close();
     const Recording stored = read_recording(run);
-    expect_same(figures, score(stored), rows);
+    expect_same(figures, scoring::score(stored), rows);
 
-    write_detections(path_, stored);
-    expect_same(figures, score(read_detections(path_, stored).recording), rows);
+    scoring::write_detections(path_, stored);
+    expect_same(figures, scoring::score(read_detections(path_, stored).recording), rows);
     if (HasFailure()) break;
   }
   EXPECT_GT(kept, 200);
@@ -563,7 +570,7 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
 }
 
 TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {
-  const std::string document = read(LCS_DETECTIONS_MD);
+  const std::string document = test::read(LCS_DETECTIONS_MD);
   const std::string begin = "```csv\n";
   const std::size_t from = document.find(begin) + begin.size();
   const std::string rows = document.substr(from, document.find("```", from) - from);
@@ -580,4 +587,4 @@ TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::recording

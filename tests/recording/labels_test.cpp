@@ -17,7 +17,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 class LabelsFile : public testing::Test {
@@ -30,16 +30,16 @@ class LabelsFile : public testing::Test {
   static Labels joined(Labels all, int pictures, const std::string& ending = ".png") {
     std::vector<Labels::Recorded> recorded;
     for (int i = 0; i < pictures; ++i) recorded.push_back({i, std::to_string(i) + ending});
-    all.told = all.join(recorded);
+    all.remarks = all.join(recorded);
     return all;
   }
   /// The error message after the folder's name.
   std::string refusal(const std::string& text) const {
-    const std::string what = refusal_of<input::Error>([&] { labels(text); });
+    const std::string what = test::refusal_of<input::Error>([&] { labels(text); });
     EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
     return what.substr(std::min(folder_.path().string().size() + 1, what.size()));
   }
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "gt.txt";
 };
 
@@ -68,7 +68,7 @@ TEST_F(LabelsFile, MotCountsFramesAndPixelsFromOne) {
   EXPECT_TRUE(all.of(2)->at(0).ignored);
   expect_box(all.of(2)->at(1), -1, 4, 5, 11, 13);
   EXPECT_FALSE(all.of(2)->at(1).ignored) << "considered, unless it says otherwise";
-  EXPECT_EQ(all.told.back(),
+  EXPECT_EQ(all.remarks.back(),
             "labels: 2 of 2 labelled pictures, with 3 of 3 boxes, belong to the 4 pictures of the "
             "recording");
 }
@@ -77,7 +77,7 @@ TEST_F(LabelsFile, MotWithAFrameZeroCountsFromZero) {
   const Labels all = joined(labels("0,1,1,1,5,5\n2,1,1,1,6,6\n"), 3);
   ASSERT_NE(all.of(2), nullptr);
   expect_box(all.of(2)->front(), 1, 0, 0, 6, 6);
-  EXPECT_EQ(all.told.front(), "labels: their frames count from 0, not from 1");
+  EXPECT_EQ(all.remarks.front(), "labels: their frames count from 0, not from 1");
 }
 
 constexpr const char* kCoco = R"(
@@ -102,7 +102,8 @@ TEST_F(LabelsFile, CocoNamesPictures) {
 TEST_F(LabelsFile, NamesWithOtherEndingsAreFoundAndTold) {
   const Labels all = joined(labels(kCoco), 3, ".jpg");
   ASSERT_NE(all.of(0), nullptr);
-  EXPECT_EQ(all.told.front(), "labels: they name pictures with other endings than the recording");
+  EXPECT_EQ(all.remarks.front(),
+            "labels: they name pictures with other endings than the recording");
 }
 
 /// \param first frame_id of the first of three pictures.
@@ -124,10 +125,10 @@ TEST_F(LabelsFile, ANameCountsMoreThanAFrameIdThatBeginsAtOne) {
 TEST_F(LabelsFile, FrameIdsOfAVideoCountFromOneIfTheyEndWithTheCountOfPictures) {
   const Labels from_one = joined(labels(numbered(1, "a.mp4")), 3, "");
   EXPECT_EQ(from_one.of(0)->front().left, 0);
-  EXPECT_EQ(from_one.told.front(), "labels: frame_id is taken to count from 1");
+  EXPECT_EQ(from_one.remarks.front(), "labels: frame_id is taken to count from 1");
   const Labels from_zero = joined(labels(numbered(0, "a.mp4")), 3, "");
   EXPECT_EQ(from_zero.of(0)->front().left, 0);
-  EXPECT_EQ(from_zero.told.front(), "labels: frame_id is taken to count from 0");
+  EXPECT_EQ(from_zero.remarks.front(), "labels: frame_id is taken to count from 0");
 }
 
 TEST_F(LabelsFile, OfSeveralVideosOneIsNamed) {
@@ -154,7 +155,7 @@ TEST_F(LabelsFile, OfKittiTrackingCountFromZero) {
 
 TEST_F(LabelsFile, LabelsOfNoPictureAreRefused) {
   const Labels all = labels("372,1,1,1,5,5\n");
-  const std::string what = refusal_of<std::invalid_argument>([&] { joined(all, 40); });
+  const std::string what = test::refusal_of<std::invalid_argument>([&] { joined(all, 40); });
   EXPECT_EQ(what,
             "0 of 1 labelled pictures, with 0 of 1 boxes, belong to the 40 pictures of the "
             "recording: the first labels are of picture 372, and the recording begins with 0.png");
@@ -207,7 +208,7 @@ LabelledBox labelled(double left, double top, double right, double bottom, bool 
 Recording labelled_recording() {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 6; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     for (const Eigen::Vector2f& px : std::vector<Eigen::Vector2f>{
              {110, 110}, {120, 120}, {96.5F, 100}, {210, 110}, {220, 110}, {310, 310}, {400, 20}}) {
       frame.corner(Verdict::rebel, sim::Label::none, -1, false, px);
@@ -227,21 +228,22 @@ Recording labelled_recording() {
   frames[1].labels = boxes;  // in the warm-up
   frames[3].labels = boxes;
   frames[5].labels.emplace();  // nothing moves in it
-  Recording recording = recording_of(std::move(frames));
+  Recording recording = test::recording_of(std::move(frames));
   recording.truth = Truth::unknown;
   return recording;
 }
 
 TEST(ScoreLabels, CountsWhatIsOnAndOffThem) {
-  const Metrics metrics = score(labelled_recording());
-  EXPECT_EQ(value(metrics, "labels.frames"), 2);
-  EXPECT_EQ(value(metrics, "labels.boxes"), 2);
-  EXPECT_EQ(value(metrics, "labels.found"), 0.5) << "two corners do not find one";
-  EXPECT_EQ(value(metrics, "labels.boxed_50"), 0.5) << "a square that stands boxes no mover";
+  const scoring::Metrics metrics = scoring::score(labelled_recording());
+  EXPECT_EQ(scoring::value(metrics, "labels.frames"), 2);
+  EXPECT_EQ(scoring::value(metrics, "labels.boxes"), 2);
+  EXPECT_EQ(scoring::value(metrics, "labels.found"), 0.5) << "two corners do not find one";
+  EXPECT_EQ(scoring::value(metrics, "labels.boxed_50"), 0.5)
+      << "a square that stands boxes no mover";
   // in the first frame (400, 20) and (153.6, 100); in the second all eight
-  EXPECT_EQ(value(metrics, "labels.rebels_off_per_frame"), (2 + 8) / 2.0);
+  EXPECT_EQ(scoring::value(metrics, "labels.rebels_off_per_frame"), (2 + 8) / 2.0);
   // in the first frame those at (400, 20) and (300, 130), in the second all five
-  EXPECT_EQ(value(metrics, "labels.circles_off_per_100_frames"), 100 * (2 + 5) / 2.0);
+  EXPECT_EQ(scoring::value(metrics, "labels.circles_off_per_100_frames"), 100 * (2 + 5) / 2.0);
 }
 
 TEST(ScoreLabels, AStrangersBoxMayBeOfAMover) {
@@ -249,7 +251,7 @@ TEST(ScoreLabels, AStrangersBoxMayBeOfAMover) {
   for (FrameRecord& frame : recording.frames) {
     for (Square& square : frame.layers.squares) square.circles = square.rebel_circles = 0;
   }
-  EXPECT_EQ(value(score(recording), "labels.boxed_50"), 1);
+  EXPECT_EQ(scoring::value(scoring::score(recording), "labels.boxed_50"), 1);
 }
 
 TEST(ScoreLabels, OneSquareBoxesOneMover) {
@@ -257,37 +259,38 @@ TEST(ScoreLabels, OneSquareBoxesOneMover) {
   FrameRecord& frame = recording.frames[3];
   frame.layers.squares.resize(1);
   frame.labels = {labelled(100, 100, 150, 138), labelled(100, 100, 150, 140)};
-  EXPECT_EQ(value(score(recording), "labels.boxed_50"), 0.5);
+  EXPECT_EQ(scoring::value(scoring::score(recording), "labels.boxed_50"), 0.5);
 }
 
 TEST(ScoreLabels, WithoutLabelsAndTruthOnlySizesAndTimesAreKnown) {
   Recording recording = labelled_recording();
   for (FrameRecord& frame : recording.frames) frame.labels.reset();
-  for (const auto& [name, figure] : score(recording)) {
+  for (const auto& [name, figure] : scoring::score(recording)) {
     const bool is_told = name.starts_with("rebel.") || name.starts_with("truth.") ||
                          name.starts_with("square.") || name.starts_with("labels.");
     if (is_told) {
       EXPECT_FALSE(figure) << name;
     }
   }
-  EXPECT_EQ(value(score(recording), "dimension.corners_mean"), 9);
+  EXPECT_EQ(scoring::value(scoring::score(recording), "dimension.corners_mean"), 9);
 }
 
 TEST(ScoreLabels, WhereNothingMovesEveryRebelIsFalse) {
   Recording recording = labelled_recording();
   recording.truth = Truth::nothing_moves;
   for (FrameRecord& frame : recording.frames) set_corner_truth(recording.truth, frame);
-  const Metrics metrics = score(recording);
-  EXPECT_EQ(value(metrics, "rebel.false_corners_per_frame"), 8);
-  EXPECT_EQ(value(metrics, "rebel.false_objects_per_100_frames"), 500);
-  EXPECT_EQ(value(metrics, "truth.fixed_corners"), 3 * 9);
-  EXPECT_EQ(value(metrics, "rebel.recall"), std::nullopt);
-  EXPECT_EQ(value(metrics, "square.precision_50"), std::nullopt) << "where objects are is unknown";
-  EXPECT_EQ(value(metrics, "truth.objects"), std::nullopt);
+  const scoring::Metrics metrics = scoring::score(recording);
+  EXPECT_EQ(scoring::value(metrics, "rebel.false_corners_per_frame"), 8);
+  EXPECT_EQ(scoring::value(metrics, "rebel.false_objects_per_100_frames"), 500);
+  EXPECT_EQ(scoring::value(metrics, "truth.fixed_corners"), 3 * 9);
+  EXPECT_EQ(scoring::value(metrics, "rebel.recall"), std::nullopt);
+  EXPECT_EQ(scoring::value(metrics, "square.precision_50"), std::nullopt)
+      << "where objects are is unknown";
+  EXPECT_EQ(scoring::value(metrics, "truth.objects"), std::nullopt);
 }
 
 TEST(ScoreLabels, ARecordingKeepsThem) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Recording recording = labelled_recording();
   RecordingWriter writer(folder.path(), recording);
   for (const FrameRecord& frame : recording.frames) writer.write(frame);
@@ -300,10 +303,10 @@ TEST(ScoreLabels, ARecordingKeepsThem) {
   ASSERT_EQ(read.frames[3].labels.value().size(), 3u);
   expect_box(read.frames[3].labels->at(0), -1, 100, 100, 150, 150);
   EXPECT_TRUE(read.frames[3].labels->at(2).ignored);
-  EXPECT_EQ(score(read), score(recording));
+  EXPECT_EQ(scoring::score(read), scoring::score(recording));
   EXPECT_TRUE(without_detections(read).frames[3].labels) << "and who asks again has them";
   EXPECT_EQ(without_detections(read).truth, Truth::unknown);
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -11,7 +11,7 @@
 
 #include "tests/scoring/whole_recordings.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 using Points = std::vector<Eigen::Vector2f>;
@@ -77,7 +77,7 @@ EgoMotion turning(double rate_radps) {
   return motion;
 }
 
-std::array<MotionWarning, 4> watched(const Recording& recording) {
+std::vector<Warned> watched(const Recording& recording) {
   MotionWatch watch;
   for (const FrameRecord& frame : recording.frames) watch.add(frame);
   return watch.warnings();
@@ -86,15 +86,15 @@ std::array<MotionWarning, 4> watched(const Recording& recording) {
 /// The keywords of the given warnings, with a space after each.
 std::string told(const Recording& recording) {
   std::string words;
-  for (const MotionWarning& warning : watched(recording)) {
+  for (const Warned& warning : watched(recording)) {
     EXPECT_EQ(warning.count == 0, warning.text.empty());
-    if (warning.count > 0) words += std::string(warning.word) + ' ';
+    if (warning.count > 0) words += warning.word + ' ';
   }
   return words;
 }
 
 std::string text_of(const Recording& recording, const std::string& word) {
-  for (const MotionWarning& warning : watched(recording)) {
+  for (const Warned& warning : watched(recording)) {
     if (warning.word == word) return warning.text;
   }
   return "";
@@ -152,7 +152,7 @@ TEST(MotionWarnings, MostFramesWithManyRebels) {
 TEST(MotionWarnings, AreAskedOfRecordingsAlone) {
   Recording recording = moving(40, kStill, ahead(4));
   const auto still = [&] {
-    for (const Warned& warned : warnings_of(recording)) {
+    for (const Warned& warned : scoring::warnings_of(recording)) {
       if (warned.word == "still_camera") return warned.count;
     }
     return std::optional<std::int64_t>(-1);
@@ -165,4 +165,4 @@ TEST(MotionWarnings, AreAskedOfRecordingsAlone) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -17,7 +17,7 @@
 #include "tools/recording/recording_fields.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ class Filler {
     outline.value.count = static_cast<int>(random_() % 4);
     for (Vec2& vertex : outline.value.vertices()) vertex = {awkward(), awkward()};
   }
-  void operator()(const char*, Form<sim::Runs>) {}  // empty, because the box is arbitrary
+  void operator()(const char*, Form<sim::PixelRuns>) {}  // empty, because the box is arbitrary
   void operator()(const char*, sim::Label& label) {
     label = static_cast<sim::Label>(random_() % 4);
   }
@@ -123,7 +123,7 @@ FrameRecord full_frame(Filler& filler, int index) {
 
 Recording full_recording() {
   Filler filler;
-  Recording recording = recording_of({});
+  Recording recording = test::recording_of({});
   recording.objects = {{1, "box \"quoted\""}, {2, "caf\u00e9\n"}};
   recording.seed = std::numeric_limits<std::uint64_t>::max();
   recording.world = {{"ego.speed", "0.5 m/s"}, {"actors.caf\u00e9.\"x\"", ""}};
@@ -144,7 +144,7 @@ void write(const Recording& recording, const std::filesystem::path& folder) {
 Recording scorable() {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 9; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     frame.corners(3 + k % 2, Verdict::rebel, sim::Label::rebel, 1)
         .corners(2, Verdict::pending, sim::Label::rebel, 1, true)
         .corners(k % 3, Verdict::rebel, sim::Label::fixed)
@@ -154,12 +154,12 @@ Recording scorable() {
     frame.record().motion.v_C_mps = {0.1 * k, 0.01, 1.0 / (k + 1)};
     frames.push_back(frame);
   }
-  return recording_of(frames);
+  return test::recording_of(frames);
 }
 
 TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
   const Recording recording = full_recording();
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write(recording, folder.path());
   const Recording back = read_recording(folder.path());
 
@@ -199,10 +199,10 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
 }
 
 TEST(RecordingIo, TheSignOfZeroComesBack) {
-  FrameMaker maker(0);
+  test::FrameMaker maker(0);
   maker.rebel_circle({-0.0, 0.0}, 3);
-  Recording recording = recording_of({maker});
-  const TemporaryFolder folder;
+  Recording recording = test::recording_of({maker});
+  const test::TemporaryFolder folder;
   write(recording, folder.path());
   const Vec2 back = read_recording(folder.path()).frames[0].layers.rebel_circles[0].location;
   EXPECT_TRUE(std::signbit(back.x()));
@@ -211,12 +211,12 @@ TEST(RecordingIo, TheSignOfZeroComesBack) {
 
 TEST(RecordingIo, AStoredRunScoresTheSameToTheBit) {
   const Recording recording = scorable();
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write(recording, folder.path());
-  const Metrics before = score(recording);
-  EXPECT_EQ(before, score(read_recording(folder.path())));
-  EXPECT_TRUE(value(before, "rebel.f1"));
-  EXPECT_TRUE(value(before, "square.mean_iou"));
+  const scoring::Metrics before = scoring::score(recording);
+  EXPECT_EQ(before, scoring::score(read_recording(folder.path())));
+  EXPECT_TRUE(scoring::value(before, "rebel.f1"));
+  EXPECT_TRUE(scoring::value(before, "square.mean_iou"));
 }
 
 TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
@@ -233,7 +233,7 @@ TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
 }
 
 TEST(RecordingIo, SignaturesAreTheBytesOfTheirMakerInHexadecimalDigits) {
-  FrameMaker maker(0);
+  test::FrameMaker maker(0);
   maker.corners(2, Verdict::normal, sim::Label::fixed);
   SignatureBytes bytes;
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
@@ -244,7 +244,7 @@ TEST(RecordingIo, SignaturesAreTheBytesOfTheirMakerInHexadecimalDigits) {
 }
 
 TEST(RecordingIo, FramesFromBeforeThereWereSignaturesHaveNone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write(scorable(), folder.path());
   const Recording back = read_recording(folder.path());
   ASSERT_FALSE(back.frames[0].corners_px.empty());
@@ -255,17 +255,17 @@ TEST(RecordingIo, FramesFromBeforeThereWereSignaturesHaveNone) {
 }
 
 TEST(RecordingIo, ReasonsThatADetectorDoesNotGiveAreUnknown) {
-  FrameMaker maker(0);
+  test::FrameMaker maker(0);
   maker.corners(2, Verdict::rebel, sim::Label::fixed);
-  const TemporaryFolder folder;
-  write(recording_of({maker}), folder.path());
+  const test::TemporaryFolder folder;
+  write(test::recording_of({maker}), folder.path());
   EXPECT_EQ(read_recording(folder.path()).frames[0].reasons,
             std::vector<Reason>(2, Reason::unknown));
 }
 
 /// An object that is wider below, and a square.
 FrameRecord masked() {
-  FrameMaker frame(0);
+  test::FrameMaker frame(0);
   frame.object(1, {5, 3, 8, 5}, true).square(4, {5, 3, 7, 5}).square(9, {0, 0, 4, 4});
   frame.record().object_truth[0].mask = {1, 4, 1};
   frame.record().masks[4] = {cv::Rect(5, 3, 2, 2), {0, 1, 2, 1}};
@@ -273,14 +273,14 @@ FrameRecord masked() {
 }
 
 TEST(RecordingIo, MasksComeBackAndAreWordsOfCoco) {
-  const Recording recording = recording_of({masked()});
-  const TemporaryFolder folder;
+  const Recording recording = test::recording_of({masked()});
+  const test::TemporaryFolder folder;
   write(recording, folder.path());
   const FrameRecord back = read_recording(folder.path()).frames[0];
   EXPECT_EQ(back.object_truth[0].mask, recording.frames[0].object_truth[0].mask);
   ASSERT_EQ(back.masks.size(), 1u);
   EXPECT_EQ(back.masks.at(4).box, cv::Rect(5, 3, 2, 2));
-  EXPECT_EQ(back.masks.at(4).runs, (sim::Runs{0, 1, 2, 1}));
+  EXPECT_EQ(back.masks.at(4).runs, (sim::PixelRuns{0, 1, 2, 1}));
   // From pycocotools' encode.
   EXPECT_EQ(nlohmann::json::parse(truth_line(back)).at("objects").at("mask"),
             nlohmann::json{"141"});
@@ -293,12 +293,12 @@ TEST(RecordingIo, MasksComeBackAndAreWordsOfCoco) {
 TEST(RecordingIo, LongMasksArePackedAsTheyAreUnpacked) {
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
-    sim::Runs runs;
+    sim::PixelRuns runs;
     for (int k = 0; k < 1 + i % 40; ++k) {
       runs.push_back(static_cast<std::uint32_t>(random() >> (random() % 31)));
     }
     const std::vector<std::int64_t> back = unpacked_runs(packed_runs(runs));
-    EXPECT_EQ(sim::Runs(back.begin(), back.end()), runs);
+    EXPECT_EQ(sim::PixelRuns(back.begin(), back.end()), runs);
   }
 }
 
@@ -308,10 +308,10 @@ TEST(RecordingIo, RecordingsFromBeforeThereWereOutlinesAndMasksAreRead) {
   for (FrameRecord& frame : frames) {
     frame.object_truth[0].mask = {0, static_cast<std::uint32_t>(frame.object_truth[0].visible_px)};
   }
-  const Metrics now = score(recording_of(frames));
-  EXPECT_TRUE(value(now, "square.mask_mean_iou"));
-  const TemporaryFolder folder;
-  write(recording_of(frames), folder.path());
+  const scoring::Metrics now = scoring::score(test::recording_of(frames));
+  EXPECT_TRUE(scoring::value(now, "square.mask_mean_iou"));
+  const test::TemporaryFolder folder;
+  write(test::recording_of(frames), folder.path());
   for (const auto& [file, list, key] :
        {std::tuple(kLayersFile, "squares", "outline"), std::tuple(kTruthFile, "objects", "mask")}) {
     std::ifstream in(folder.path() / file);
@@ -326,39 +326,39 @@ TEST(RecordingIo, RecordingsFromBeforeThereWereOutlinesAndMasksAreRead) {
     in.close();
     std::ofstream(folder.path() / file) << older;
   }
-  const Metrics then = score(read_recording(folder.path()));
+  const scoring::Metrics then = scoring::score(read_recording(folder.path()));
   for (const auto& [name, figure] : now) {
     if (name.starts_with("square.mask_")) {
-      EXPECT_FALSE(value(then, name)) << name;
+      EXPECT_FALSE(scoring::value(then, name)) << name;
     } else {
-      EXPECT_EQ(value(then, name), figure) << name;
+      EXPECT_EQ(scoring::value(then, name), figure) << name;
     }
   }
 }
 
 TEST(RecordingIo, ANameThatIsNotUtf8IsStoredWithItsBadBytesReplaced) {
-  Recording recording = recording_of({});
+  Recording recording = test::recording_of({});
   recording.scenario = "caf\xe9";
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write(recording, folder.path());
   EXPECT_EQ(read_recording(folder.path()).scenario, "caf\xef\xbf\xbd");
 }
 
 TEST(RecordingIo, AnEmptyRunComesBackEmpty) {
-  const TemporaryFolder folder;
-  write(recording_of({}), folder.path());
+  const test::TemporaryFolder folder;
+  write(test::recording_of({}), folder.path());
   EXPECT_TRUE(read_recording(folder.path()).frames.empty());
 }
 
 TEST(RecordingIo, TheObjectsOfSingleFramesAreThoseOfTheWholeRecording) {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 5; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     for (int i = 0; i <= k; ++i) frame.object(i + 1, {10 * k, i, 10 * k + 20, i + 9}, i % 2 == 0);
     frames.push_back(frame);
   }
-  const TemporaryFolder folder;
-  const Recording recording = recording_of(frames);
+  const test::TemporaryFolder folder;
+  const Recording recording = test::recording_of(frames);
   write(recording, folder.path());
   const std::vector<int> wanted{0, 2, 2, 4};
   const auto objects = read_object_truth(folder.path(), wanted);
@@ -377,16 +377,16 @@ TEST(RecordingIo, TheObjectsOfSingleFramesAreThoseOfTheWholeRecording) {
 
 TEST(RecordingIo, ALayerThatIsNotFiniteIsRefusedByFrameAndField) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
-    FrameMaker maker(12);
+    test::FrameMaker maker(12);
     maker.rebel_circle({10, bad}, 3);
-    EXPECT_EQ(refusal_of<std::invalid_argument>([&] { layers_line(maker); }),
+    EXPECT_EQ(test::refusal_of<std::invalid_argument>([&] { layers_line(maker); }),
               "frame 12: rebel_circles.y is not a finite number")
         << bad;
   }
 }
 
 TEST(RecordingIo, AMotionThatIsInfiniteAndADepthThatIsNanAreRefused) {
-  FrameMaker maker(0);
+  test::FrameMaker maker(0);
   maker.corner(Verdict::normal, sim::Label::fixed);
   FrameRecord far = maker, deep = maker;
   far.corner_truth[0].motion_px.x() = kInfinity;
@@ -415,7 +415,7 @@ class BrokenRecording : public testing::Test {
   }
   void expect_error(const std::string& part) {
     const std::string what =
-        refusal_of<std::runtime_error>([&] { read_recording(folder_.path()); });
+        test::refusal_of<std::runtime_error>([&] { read_recording(folder_.path()); });
     EXPECT_NE(what.find(part), std::string::npos) << what;
   }
   template <class Change>
@@ -427,7 +427,7 @@ class BrokenRecording : public testing::Test {
     std::ofstream out(folder_.path() / file);
     for (const std::string& line : lines) out << line << '\n';
   }
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(BrokenRecording, BadJson) {
@@ -532,4 +532,4 @@ TEST_F(BrokenRecording, AMissingFile) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::recording

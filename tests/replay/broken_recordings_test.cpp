@@ -19,9 +19,9 @@ namespace lcs::replay {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::read;
-using bench::write;
+using test::CommandResult;
+using test::read;
+using test::write;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -39,11 +39,11 @@ std::string joined(const std::vector<std::string>& lines, const std::string& end
 class BrokenRecording : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    original_ = std::make_unique<bench::TemporaryFolder>();
+    original_ = std::make_unique<test::TemporaryFolder>();
     const CommandResult result =
-        bench::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--frames", "8",
-                        "--formats", "euroc", "--quiet", "--out", original_->path() / "sequence"},
-                       {.folder = original_->path()});
+        test::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--frames", "8", "--formats",
+                       "euroc", "--quiet", "--out", original_->path() / "sequence"},
+                      {.folder = original_->path()});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   static void TearDownTestSuite() { original_.reset(); }
@@ -60,14 +60,14 @@ class BrokenRecording : public testing::Test {
     return fmt::format("{}.png", 1'000'000'000'000'000'000 + 100'000'000LL * k);
   }
   CommandResult replay() const {
-    return bench::run_lcs({"replay", sequence(), "--no-video", "--out", home_.path() / "out"},
-                          {.folder = home_.path()});
+    return test::run_lcs({"replay", sequence(), "--no-video", "--out", home_.path() / "out"},
+                         {.folder = home_.path()});
   }
-  std::string layers() const { return read(home_.path() / "out" / bench::kLayersFile); }
-  bench::Recording recording() const { return bench::read_recording(home_.path() / "out"); }
+  std::string layers() const { return read(home_.path() / "out" / recording::kLayersFile); }
+  recording::Recording recording() const { return recording::read_recording(home_.path() / "out"); }
 
-  inline static std::unique_ptr<bench::TemporaryFolder> original_;
-  const bench::TemporaryFolder home_;
+  inline static std::unique_ptr<test::TemporaryFolder> original_;
+  const test::TemporaryFolder home_;
   std::string whole_;  ///< layers of the replay of the intact sequence
 };
 
@@ -169,7 +169,7 @@ TEST_F(BrokenRecording,
   fs::remove(pictures() / picture(2));
   const std::string whole = read(pictures() / picture(4));
   write(pictures() / picture(4), whole.substr(0, whole.size() / 2));
-  bench::write_picture(pictures() / picture(5), cv::Mat3b(100, 100, cv::Vec3b(1, 2, 3)));
+  test::write_picture(pictures() / picture(5), cv::Mat3b(100, 100, cv::Vec3b(1, 2, 3)));
   const CommandResult result = replay();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find(picture(2) + " is missing"), std::string::npos) << result.err;
@@ -177,7 +177,7 @@ TEST_F(BrokenRecording,
       << result.err;
   EXPECT_NE(result.err.find(picture(5) + " is 100x100"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("5 pictures, 3 skipped"), std::string::npos) << result.out;
-  const bench::Recording left = recording();
+  const recording::Recording left = recording();
   ASSERT_EQ(left.frames.size(), 5u);
   EXPECT_EQ(left.frames[2].t_ns, 300'000'000);
   EXPECT_DOUBLE_EQ(left.frames[2].motion.dt_s, 0.2);

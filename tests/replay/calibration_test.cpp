@@ -17,18 +17,18 @@ namespace {
 
 using sim::Rectifier;
 
-using bench::refusal_of;
+using test::refusal_of;
 
 class CalibrationFile : public testing::Test {
  protected:
   SensorCalibration read(const std::string& text, const std::string& camera = "") const {
-    bench::write(path_, text);
+    test::write(path_, text);
     return read_calibration(path_, camera);
   }
   std::string refusal(const std::string& text) const {
     return refusal_of<input::Error>([&] { read(text); });
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "calibration.yaml";
 };
 
@@ -118,7 +118,7 @@ distortion_coefficients: [0.1, 0.2, 0.3, 0.4]
   expect_lens(euroc.lens, {0.1, 0.2, 0.3, 0.4});
   EXPECT_EQ(euroc.rate_hz, 20);
   expect_ahead(euroc.T_BS);
-  bench::write(folder_.path() / "cam0.yaml", R"(%YAML:1.0
+  test::write(folder_.path() / "cam0.yaml", R"(%YAML:1.0
 ---
 model_type: PINHOLE
 image_width: 752
@@ -151,8 +151,8 @@ TEST_F(CalibrationFile, NamesNoFileThatNamesAFurtherOne) {
   EXPECT_NE(itself.find("calibration.yaml:2: cam0_calib names a further calibration"),
             std::string::npos)
       << itself;
-  bench::write(folder_.path() / "one.yaml", "cam0_calib: two.yaml\n");
-  bench::write(folder_.path() / "two.yaml", "cam0_calib: one.yaml\n");
+  test::write(folder_.path() / "one.yaml", "cam0_calib: two.yaml\n");
+  test::write(folder_.path() / "two.yaml", "cam0_calib: one.yaml\n");
   const std::string ring = refusal("cam0_calib: two.yaml\n");
   EXPECT_NE(ring.find("two.yaml:1: cam0_calib names a further calibration"), std::string::npos)
       << ring;

@@ -22,10 +22,10 @@ namespace {
 using sim::Rectifier;
 
 namespace fs = std::filesystem;
-using bench::write;
+using test::write;
 
-scenario::Recorded asked(const fs::path& path) {
-  scenario::Recorded recording;
+scenario::RecordingSource asked(const fs::path& path) {
+  scenario::RecordingSource recording;
   recording.path = path;
   return recording;
 }
@@ -78,7 +78,7 @@ class Layouts : public testing::Test {
     fs::create_directories(drive / "image_02/data");
     return drive;
   }
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
 };
 
 TEST_F(Layouts, KittiRawGivesTheMotionOfItsNavigationUnit) {
@@ -125,7 +125,7 @@ TEST_F(Layouts, KittiRawRefusesACalibrationThatTurnsNothing) {
   for (const char* R : {"0 -1 0 0 0 61 1 0 0", "1 0 0 0 1 0 0 0 -1", "0 0 0 0 0 0 0 0 0"}) {
     write(date / "calib_velo_to_cam.txt", fmt::format("R: {}\nT: 0 -0.08 -0.27\n", R));
     const std::string told =
-        bench::refusal_of<input::Error>([&] { read_kitti(asked(drive), false); });
+        test::refusal_of<input::Error>([&] { read_kitti(asked(drive), false); });
     EXPECT_NE(told.find("calib_velo_to_cam.txt"), told.npos) << R << ": " << told;
     EXPECT_NE(told.find("R is no rotation"), told.npos) << R << ": " << told;
   }
@@ -138,7 +138,7 @@ TEST_F(Layouts, KittiTrackingHasItsStatesInOneFileAndTenPicturesASecond) {
     const double t = 0.1 * k;
     states += fmt::format("49.0 8.4 116 0 0 {} {} {} 5 0 0{}\n", Circle::yaw(t), Circle::north(t),
                           Circle::east(t), " 0 0 9.8 0 0 9.8 0 0 0.2 0 0 0.2 0.1 0.05 4 10 4 4 0");
-    bench::write_picture(pictures / fmt::format("{:06}.png", k), cv::Mat1b(375, 1242, uchar{0}));
+    test::write_picture(pictures / fmt::format("{:06}.png", k), cv::Mat1b(375, 1242, uchar{0}));
   }
   write(root / "oxts/0004.txt", states);
   std::string calibration;
@@ -156,9 +156,9 @@ TEST_F(Layouts, KittiTrackingHasItsStatesInOneFileAndTenPicturesASecond) {
     EXPECT_EQ(recorded.lens->cu_px, 600);
     expect_circle(recorded, 0.1);
   }
-  bench::write_picture(root / "image_02/0005/000000.png", cv::Mat1b(375, 1242, uchar{0}));
+  test::write_picture(root / "image_02/0005/000000.png", cv::Mat1b(375, 1242, uchar{0}));
   write(root / "calib/0005.txt", calibration);
-  EXPECT_NE(bench::refusal_of<std::runtime_error>([&] {
+  EXPECT_NE(test::refusal_of<std::runtime_error>([&] {
               layout_of(asked(root));
             }).find("holds several sequences"),
             std::string::npos);
@@ -173,7 +173,7 @@ TEST_F(Layouts, Kitti360HasPosesOfSomePictures) {
     if (k % 4 == 0) poses += fmt::format("{} 1 0 0 0 0 1 0 0 0 0 1 {} 0 0 0 1\n", k, 0.5 * k);
   }
   write(drive / "image_00/timestamps.txt", times);
-  bench::write_picture(drive / "image_00/data_rect/0000000000.png", cv::Mat1b(9, 9, uchar{0}));
+  test::write_picture(drive / "image_00/data_rect/0000000000.png", cv::Mat1b(9, 9, uchar{0}));
   write(root / "calibration/perspective.txt",
         "P_rect_00: 552 0 682 0 0 552 238 0 0 0 1 0\nS_rect_00: 1408 376\n");
   write(root / "data_poses" / drive.filename() / "cam0_to_world.txt", poses);
@@ -189,8 +189,8 @@ TEST_F(Layouts, Kitti360HasPosesOfSomePictures) {
 
 TEST_F(Layouts, OfListedPicturesHaveTheTimesOfTheirList) {
   for (int k = 0; k < 3; ++k) {
-    bench::write_picture(home_.path() / fmt::format("img/image_0_{}.png", k),
-                         cv::Mat1b(9, 9, uchar{0}));
+    test::write_picture(home_.path() / fmt::format("img/image_0_{}.png", k),
+                        cv::Mat1b(9, 9, uchar{0}));
   }
   write(home_.path() / "images.txt",
         "# id timestamp image_name\n0 1545305824.900 img/image_0_0.png\n"
@@ -213,14 +213,14 @@ TEST_F(Layouts, EurocOfTumViHasMotionCaptureAndNamesThatAreTimes) {
     imu += fmt::format("{},0,0,0,0,0,9.81\n", kStart_ns + 5'000'000 * k);
     mocap += fmt::format("{},{},0,0,1,0,0,0\n", kStart_ns + 5'000'000 * k, 0.01 * k);  // 2 m/s
     if (k % 10 == 0) {
-      bench::write_picture(mav / fmt::format("cam0/data/{}.png", kStart_ns + 5'000'000 * k),
-                           cv::Mat1b(9, 9, uchar{0}));
+      test::write_picture(mav / fmt::format("cam0/data/{}.png", kStart_ns + 5'000'000 * k),
+                          cv::Mat1b(9, 9, uchar{0}));
     }
   }
   write(mav / "imu0/data.csv", imu);
   write(mav / "mocap0/data.csv", mocap);
   EXPECT_EQ(layout_of(asked(home_.path())).name, "euroc");
-  scenario::Recorded ahead = asked(home_.path());
+  scenario::RecordingSource ahead = asked(home_.path());
   EXPECT_FALSE(read_euroc(ahead, false).lacks.empty()) << "where the camera is on the IMU";
   ahead.mount_rpy_rad = Eigen::Vector3d::Zero();
   Recorded recorded = read_euroc(ahead, false);
@@ -259,7 +259,7 @@ TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
 
   write(run / "mono_rear.timestamps", list);
   fs::create_directories(run / "mono_rear");
-  scenario::Recorded behind = asked(run);
+  scenario::RecordingSource behind = asked(run);
   behind.camera = "mono_rear";
   EXPECT_EQ(read_robotcar(behind, false).lacks.size(), 1u) << "where it looks is not known";
   behind.mount_rpy_rad = Eigen::Vector3d(0, 0, std::numbers::pi);
@@ -285,17 +285,17 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
     const fs::path run = home_.path() / "run";
     const std::string name = std::string(camera).substr(0, std::string(camera).find('/'));
     fs::create_directories(run / camera);
-    bench::write_picture(run / camera / "10.png", raw);
+    test::write_picture(run / camera / "10.png", raw);
     write(run / (name + ".timestamps"), "10 1\n20 1\n");
     write(run / "gps/ins.csv",
           "timestamp,velocity_north,velocity_east,velocity_down,roll,pitch,yaw\n"
           "10,0,0,0,0,0,0\n20,0,0,0,0,0,0\n");
-    scenario::Recorded raw_pictures = asked(run);
+    scenario::RecordingSource raw_pictures = asked(run);
     raw_pictures.camera = camera;
     raw_pictures.mount_rpy_rad = Eigen::Vector3d::Zero();
     const Recorded recorded = read_robotcar(raw_pictures, false);
     PictureReader reader(recorded.format);
-    const auto picture = reader.read(recorded.frames[0].picture);
+    const auto picture = reader.read(recorded.frames[0]);
     ASSERT_TRUE(picture);
     EXPECT_EQ((*picture)(16, 24), colour) << camera;
     EXPECT_EQ((*picture)(17, 25), colour) << camera;

@@ -23,7 +23,7 @@ Names order(const Names& names) {
   return all;
 }
 
-using bench::refusal_of;
+using test::refusal_of;
 
 std::string refusal(const Names& names) {
   return refusal_of<input::Error>([&] { ordered(names); });
@@ -72,9 +72,9 @@ TEST(PictureNames, TimestampsAreReadAsTimes) {
 }
 
 TEST(PictureNames, OfAFolderAreThoseOfPicturesWithoutHiddenFiles) {
-  const bench::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"2.png", "1.WebP", "._1.png", "log.txt"}) {
-    bench::write(folder.path() / name, name);
+    test::write(folder.path() / name, name);
   }
   const OrderedPictures pictures = in_order(pictures_in(folder.path()), "");
   ASSERT_EQ(pictures.files.size(), 2u);

@@ -27,10 +27,10 @@ namespace lcs::replay {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::run_lcs;
-using bench::write;
 using Eigen::Vector3d;
+using test::CommandResult;
+using test::run_lcs;
+using test::write;
 
 constexpr int kFrames = 4;
 constexpr double kDt_s = 0.1, kSpeed_mps = 2, kYawRate_radps = 0.2;
@@ -81,7 +81,7 @@ class RecordedScenario : public testing::Test {
   void draw(const fs::path& folder, const std::string& format, int first = 0) const {
     fs::create_directories(folder);
     for (int k = 0; k < kFrames; ++k) {
-      bench::write_picture(folder / fmt::format(fmt::runtime(format), first + k), view(k));
+      test::write_picture(folder / fmt::format(fmt::runtime(format), first + k), view(k));
     }
   }
   fs::path scenario_file(const std::string& recording, const std::string& more = "") const {
@@ -92,7 +92,7 @@ class RecordedScenario : public testing::Test {
     return Playback(scenario::load(scenario_file(recording, more)));
   }
   std::string refusal(const std::string& recording) const {
-    return bench::refusal_of<std::runtime_error>([&] { playback(recording); });
+    return test::refusal_of<std::runtime_error>([&] { playback(recording); });
   }
   std::string poses(bool tum, int count = kFrames) const {
     std::string text;
@@ -101,18 +101,18 @@ class RecordedScenario : public testing::Test {
     }
     return text;
   }
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
 };
 
 struct Seen {
-  std::vector<bench::FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   std::vector<cv::Mat3b> images;
 };
 
 Seen all_of(Playback& playback) {
   Seen seen;
   while (true) {
-    bench::FrameRecord frame;
+    recording::FrameRecord frame;
     cv::Mat3b image;
     if (!playback.next(frame, image)) return seen;
     seen.frames.push_back(frame);
@@ -140,7 +140,7 @@ void expect_drive(const Seen& seen, int every = 1) {
 }
 
 void expect_ground(const Seen& seen, double height_m, const Vector3d& up_C) {
-  for (const bench::FrameRecord& frame : seen.frames) {
+  for (const recording::FrameRecord& frame : seen.frames) {
     ASSERT_TRUE(frame.motion.ground);
     EXPECT_EQ(frame.motion.ground->height_m, height_m);
     EXPECT_LT((frame.motion.ground->up_C - up_C).norm(), 1e-6);
@@ -170,8 +170,8 @@ TEST_F(RecordedScenario, OfKittiOdometryHasItsTimesItsPosesAndItsGround) {
   EXPECT_NEAR(from_right.frames[1].motion.v_C_mps.z(),
               seen.frames[1].motion.v_C_mps.z() + 0.1 * kYawRate_radps, 1e-3);
   EXPECT_FALSE(from_right.frames[1].motion.ground) << "how high it is was not said";
-  ASSERT_FALSE(right.told().empty());
-  EXPECT_NE(right.told().back().find("camera_height"), std::string::npos);
+  ASSERT_FALSE(right.remarks().empty());
+  EXPECT_NE(right.remarks().back().find("camera_height"), std::string::npos);
 }
 
 TEST_F(RecordedScenario, OfTumRgbdHasTheMotionBetweenItsPosesAtTheTimesOfItsPictures) {
@@ -209,7 +209,7 @@ TEST_F(RecordedScenario, OfMotChallengeHasItsRateAndMovesAsTheUserSays) {
 TEST_F(RecordedScenario, OfAVideoHasItsPicturesAtItsRateOrAtTheUsers) {
   const std::string file = (home() / "road.avi").string();
   {
-    const auto video = bench::new_video(file, "MJPG", 10, {160, 120});
+    const auto video = test::new_video(file, "MJPG", 10, {160, 120});
     for (int k = 0; k < kFrames; ++k) video->write(view(k));
   }
   write(home() / "poses.txt", poses(true));
@@ -242,10 +242,10 @@ std::string with_number(std::string bytes, const std::string& word, std::size_t 
 TEST_F(RecordedScenario, OfAVideoEndsWithItsFileWhateverItsHeaderCounts) {
   const fs::path file = home() / "road.avi";
   {
-    const auto video = bench::new_video(file, "MJPG", 10, {160, 120});
+    const auto video = test::new_video(file, "MJPG", 10, {160, 120});
     for (int k = 0; k < kFrames; ++k) video->write(view(k));
   }
-  const std::string recording = "path: road.avi, speed: 0, focal: 300", whole = bench::read(file);
+  const std::string recording = "path: road.avi, speed: 0, focal: 300", whole = test::read(file);
   ASSERT_NO_THROW(playback(recording));
   // The lengths in the headers of the file and of its stream.
   constexpr std::size_t kFramesOfFile = 20, kFramesOfStream = 36;
@@ -254,7 +254,7 @@ TEST_F(RecordedScenario, OfAVideoEndsWithItsFileWhateverItsHeaderCounts) {
                             kFramesOfStream, count));
     Playback longer = playback(recording);
     EXPECT_EQ(all_of(longer).frames.size(), static_cast<std::size_t>(kFrames));
-    EXPECT_EQ(longer.told()[0],
+    EXPECT_EQ(longer.remarks()[0],
               fmt::format("the video ends after 4 of the {} pictures of its header", count));
   }
   // FFmpeg uses the size in the JPEG pictures, not that in the file's header.
@@ -274,7 +274,7 @@ TEST_F(RecordedScenario, OfAVideoEndsWithItsFileWhateverItsHeaderCounts) {
 
 TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
   {
-    const auto video = bench::new_video(home() / "real.ts", "mpg2", 25, {160, 120});
+    const auto video = test::new_video(home() / "real.ts", "mpg2", 25, {160, 120});
     for (int k = 0; k < 20; ++k) video->write(view(k % kFrames));
   }
   const std::string playlist =
@@ -294,7 +294,7 @@ TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
     EXPECT_NE(told.find(std::string(name) + " is no video that can be read; "), std::string::npos)
         << told;
   }
-  bench::write_picture(home() / "one.png", view(0));
+  test::write_picture(home() / "one.png", view(0));
   EXPECT_NE(refusal("path: one.png, speed: 0, focal: 300").find("one.png is no video"),
             std::string::npos);
 }
@@ -314,15 +314,15 @@ TEST_F(RecordedScenario, OfAVideoLeavesTheOptionsOfOthersAsTheyWere) {
 
 TEST_F(RecordedScenario, OfPicturesThatClaimToBeHugeIsRefusedBeforeTheyAreDecoded) {
   draw(home() / "pictures", "{}.png");
-  std::string bytes = bench::read(home() / "pictures" / "1.png");
+  std::string bytes = test::read(home() / "pictures" / "1.png");
   bytes.replace(16, 8, std::string("\0\0\x7d\0\0\0\x7d\0", 8));  // 32000 x 32000
   write(home() / "pictures" / "1.png", bytes);
   const std::string recording = "path: pictures, fps: 10, focal: 300, speed: 0";
   Playback some = playback(recording);
   EXPECT_EQ(all_of(some).frames.size(), 3u);
-  EXPECT_NE(some.told()[0].find("1.png: the picture has 32000 x 32000 pixels, and can have"),
+  EXPECT_NE(some.remarks()[0].find("1.png: the picture has 32000 x 32000 pixels, and can have"),
             std::string::npos)
-      << some.told()[0];
+      << some.remarks()[0];
   write(home() / "mask.png", bytes);
   EXPECT_NE(refusal(recording + ", mask: mask.png").find("32000 x 32000 pixels, and can have"),
             std::string::npos);
@@ -344,7 +344,7 @@ TEST_F(RecordedScenario, OfPicturesWithPosesTakesTheirTimesOrTheUsersRate) {
   write(home() / "kitti.txt", poses(false, 2));
   Playback fewer = playback("path: pictures, poses: kitti.txt, focal: 300, fps: 10");
   EXPECT_EQ(all_of(fewer).frames.size(), 2u);
-  EXPECT_NE(fewer.told().front().find("2 pictures have no pose"), std::string::npos);
+  EXPECT_NE(fewer.remarks().front().find("2 pictures have no pose"), std::string::npos);
 }
 
 TEST_F(RecordedScenario, OfKittiRawTakesJpegAndTheClockOfTheNavigation) {
@@ -366,7 +366,7 @@ TEST_F(RecordedScenario, OfKittiRawTakesJpegAndTheClockOfTheNavigation) {
   EXPECT_NEAR(seen.frames[2].motion.w_C_radps.y(), -kYawRate_radps, 1e-4);
   EXPECT_NEAR(seen.frames[2].motion.v_C_mps.z(), kSpeed_mps, 1e-2);
   expect_ground(seen, 1.65, {0, -1, 0});
-  EXPECT_NE(playback_of_it.told().front().find("the times of the navigation are used"),
+  EXPECT_NE(playback_of_it.remarks().front().find("the times of the navigation are used"),
             std::string::npos);
 }
 
@@ -379,7 +379,7 @@ TEST_F(RecordedScenario, GroundIsWhereTheMountSaysThatItIs) {
   expect_ground(all_of(mounted), 0.5, looking_down);
   Playback unknown = playback(pictures + ", speed: 1");
   EXPECT_FALSE(all_of(unknown).frames[1].motion.ground);
-  EXPECT_NE(unknown.told().back().find("give mount"), std::string::npos);
+  EXPECT_NE(unknown.remarks().back().find("give mount"), std::string::npos);
 
   std::string imu = "#timestamp [ns],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x,a_RS_S_y,a_RS_S_z\n";
   for (int i = 0; i <= 60; ++i)
@@ -423,7 +423,7 @@ TEST_F(RecordedScenario, UnusableInputIsRefusedWithItsPlace) {
   write(home() / "poses.txt", "# t x y z\n1 0 0 0 0 0 0 7\n");
   EXPECT_NE(refusal(pictures + "poses: poses.txt").find("poses.txt: holds no pose"),
             std::string::npos);
-  bench::write_picture(home() / "mask.png", cv::Mat1b(20, 20, uchar{255}));
+  test::write_picture(home() / "mask.png", cv::Mat1b(20, 20, uchar{255}));
   EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is of 20 x 20 pixels"),
             std::string::npos);
   write(home() / "mask.png", "not a picture");
@@ -449,7 +449,7 @@ TEST_F(RecordedScenario, CornersOfTheVehicleItselfAreLeftOut) {
   draw(home() / "pictures", "{}.png");
   cv::Mat1b mask(120, 160, uchar{0});
   mask.rowRange(60, 120) = 255;
-  bench::write_picture(home() / "mask.png", mask);
+  test::write_picture(home() / "mask.png", mask);
   Playback masked = playback("path: pictures, fps: 10, focal: 300, speed: 0, mask: mask.png");
   std::vector<Eigen::Vector2f> corners{{10, 20}, {10, 59.4F}, {10, 60}, {159, 119}};
   cv::Mat3b image = view(0);
@@ -470,17 +470,17 @@ TEST_F(RecordedScenario, IsRunAndRecordedAndComparedAsAnyOther) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("drive: 4 pictures, 0 skipped"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find("where the ground is"), std::string::npos) << result.err;
-  const auto metrics = nlohmann::json::parse(bench::read(home() / "first" / bench::kMetricsFile));
+  const auto metrics = nlohmann::json::parse(test::read(home() / "first" / scoring::kMetricsFile));
   EXPECT_TRUE(metrics["ego.rotation_error_mrad_median"].is_null()) << "nobody knows the truth";
   EXPECT_TRUE(metrics["square.precision_50"].is_null());
   EXPECT_TRUE(metrics["rebel.recall"].is_null()) << "nothing moves";
-  EXPECT_TRUE(fs::exists(home() / "klt" / bench::kMetricsFile));
+  EXPECT_TRUE(fs::exists(home() / "klt" / scoring::kMetricsFile));
 
   result =
       lcs({"run", file, "--recorded", home() / "first", "--no-video", "--out", home() / "again"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(bench::read(home() / "first" / bench::kLayersFile),
-            bench::read(home() / "again" / bench::kLayersFile));
+  EXPECT_EQ(test::read(home() / "first" / recording::kLayersFile),
+            test::read(home() / "again" / recording::kLayersFile));
 
   // One run for any number of seeds.
   result = lcs({"suite", file, "--seeds", "3", "--out", home() / "suite"});
@@ -513,7 +513,7 @@ TEST_F(RecordedScenario, OfABagWithoutRosbagsTellsHowToGetIt) {
 
 TEST_F(RecordedScenario, OfAVideoWithATableOfTimesHasThem) {
   {
-    const auto video = bench::new_video(home() / "road.avi", "MJPG", 10, {160, 120});
+    const auto video = test::new_video(home() / "road.avi", "MJPG", 10, {160, 120});
     for (int k = 0; k < kFrames; ++k) video->write(view(k));
   }
   write(home() / "times.csv", "frame,time_ms\n0,5000\n1,5100\n2,5350\n3,5400\n");
@@ -547,7 +547,7 @@ TEST_F(RecordedScenario, ATimeOffsetMovesPicturesToTheClockOfTheImu) {
     Playback read =
         playback("path: pictures, times: times.csv, focal: 300, imu: imu.csv, speed: 0" + more);
     std::vector<double> turns_rad;
-    for (const bench::FrameRecord& frame : all_of(read).frames) {
+    for (const recording::FrameRecord& frame : all_of(read).frames) {
       turns_rad.push_back(Eigen::AngleAxisd(frame.motion.R_cur_prev).angle());
     }
     return turns_rad;
@@ -563,7 +563,7 @@ TEST_F(RecordedScenario, ATimeOffsetMovesPicturesToTheClockOfTheImu) {
 
 TEST_F(RecordedScenario, OfPicturesOfTwoSizesTakesThatOfMost) {
   draw(home() / "pictures", "{}.png");
-  bench::write_picture(home() / "pictures" / "0.png", cv::Mat1b(20, 20, uchar{255}));
+  test::write_picture(home() / "pictures" / "0.png", cv::Mat1b(20, 20, uchar{255}));
   Playback most = playback("path: pictures, fps: 10, focal: 300, speed: 0");
   EXPECT_EQ(all_of(most).frames.size(), static_cast<std::size_t>(kFrames - 1));
   EXPECT_EQ(most.camera().width_px, 160);
@@ -573,11 +573,11 @@ TEST_F(RecordedScenario, OfPicturesThatUse12Of16BitsIsAsBrightAsOf8) {
   for (int k = 0; k < kFrames; ++k) {
     cv::Mat deep;
     view(k).convertTo(deep, CV_16U, 16);  // 255 becomes 4080
-    bench::write_picture(home() / "deep" / fmt::format("{}.png", k), deep);
+    test::write_picture(home() / "deep" / fmt::format("{}.png", k), deep);
   }
   Playback deep = playback("path: deep, fps: 10, focal: 300, speed: 0");
-  EXPECT_NE(deep.told()[0].find("pictures of 16 bits use fewer"), std::string::npos)
-      << deep.told()[0];
+  EXPECT_NE(deep.remarks()[0].find("pictures of 16 bits use fewer"), std::string::npos)
+      << deep.remarks()[0];
   const Seen seen = all_of(deep);
   ASSERT_EQ(seen.images.size(), static_cast<std::size_t>(kFrames));
   for (int k = 0; k < kFrames; ++k) {
@@ -602,8 +602,8 @@ TEST_F(RecordedScenario, IsWhatReplayMakesOfItsOptions) {
   result =
       lcs({"run", home() / "elsewhere" / "mine.yaml"}, {"--no-video", "--out", home() / "run"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(bench::read(home() / "replayed" / bench::kLayersFile),
-            bench::read(home() / "run" / bench::kLayersFile));
+  EXPECT_EQ(test::read(home() / "replayed" / recording::kLayersFile),
+            test::read(home() / "run" / recording::kLayersFile));
   result = lcs({"replay", "pictures"}, {});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("(focal)"), std::string::npos) << result.err;

@@ -17,7 +17,7 @@
 namespace lcs::replay {
 namespace {
 
-using bench::refusal_of;
+using test::refusal_of;
 
 using Row = std::function<std::string(int)>;
 
@@ -27,14 +27,14 @@ class SensorTable : public testing::Test {
                                    const std::string& unit = "") {
     std::string text = header + "\n";
     for (int i = 0; i < 400; ++i) text += row(i) + "\n";
-    bench::write(path_, text);
+    test::write(path_, text);
     return read_imu_csv(path_, {unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns},
                         tally_);
   }
   std::string refusal(const std::string& header, const Row& row, const std::string& unit = "") {
     return refusal_of<input::Error>([&] { read(header, row, unit); });
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "imu.csv";
   Tally tally_;
 };
@@ -130,7 +130,7 @@ TEST_F(SensorTable, WithAUnitThatContradictsTheRateIsRefused) {
 }
 
 TEST_F(SensorTable, WithAnotherRateThanIsStatedIsToldSo) {
-  bench::write(path_, "t [ms]\n0\n100\n200\n300\n");
+  test::write(path_, "t [ms]\n0\n100\n200\n300\n");
   const TextTable table = read_table(path_);
   EXPECT_EQ(time_unit_of(table, 0, "", {1, 100, 20, "sensor.yaml"}, {}, tally_), kMillisecond_ns);
   EXPECT_NE(tally_.lines().at(0).find("has 10 rows a second, and sensor.yaml states 20 Hz"),
@@ -165,7 +165,7 @@ TEST_F(SensorTable, WithRatesInDegreesIsRefusedAlsoWhereTheyAreSmall) {
 
 TEST_F(SensorTable, OfPosesHasTheColumnsOfItsFormat) {
   const auto poses = [&](const std::string& text) {
-    bench::write(path_, text);
+    test::write(path_, text);
     return read_poses(path_, "", tally_);
   };
   const PosesFile euroc = poses(
@@ -199,7 +199,7 @@ TEST_F(SensorTable, OfTimesBelongsToPicturesByNameOrByRow) {
     for (std::size_t i = 0; i < 3; ++i) {
       recorded.frames.push_back({0, fmt::format("images/{:05}.jpg", i), i});
     }
-    bench::write(path_, text);
+    test::write(path_, text);
     time_by_table(path_, "", recorded);
     std::vector<std::int64_t> t_ms;
     for (const RecordedFrame& frame : recorded.frames) t_ms.push_back(frame.t_ns / 1'000'000);

@@ -22,12 +22,12 @@ namespace lcs::report {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::TemporaryFolder;
 using nlohmann::json;
 using suite::Outcome;
 using suite::RunResult;
 using suite::ScenarioResult;
 using suite::SuiteResult;
+using test::TemporaryFolder;
 
 const std::string kNasty = "a<b>&\"'</script><!--\xff";
 
@@ -36,7 +36,7 @@ RunResult run_with(std::uint64_t seed, double f1) {
   run.seed = seed;
   run.outcome = f1 >= 0.5 ? Outcome::passed : Outcome::failed;
   run.metrics = {{"rebel.f1", f1}, {"rebel.recall", std::nullopt}};
-  bench::JudgedCriterion& criterion = run.criteria.emplace_back();
+  scoring::JudgedCriterion& criterion = run.criteria.emplace_back();
   criterion.metric = "rebel.f1";
   criterion.min = 0.5;
   criterion.value = f1;
@@ -59,9 +59,9 @@ SuiteResult suite_of(std::vector<ScenarioResult> scenarios) {
   return {.detector = "lcs", .sets = {}, .version = "lcs 1", .scenarios = std::move(scenarios)};
 }
 
-bench::Event event_with(int corners, std::size_t picture_bytes) {
-  bench::Event event;
-  event.kind = bench::EventKind::found_late;
+scoring::ScoredEvent event_with(int corners, std::size_t picture_bytes) {
+  scoring::ScoredEvent event;
+  event.kind = scoring::EventKind::found_late;
   event.first_frame = 3;
   event.last_frame = 9;
   event.object = 1;
@@ -77,11 +77,11 @@ bench::Event event_with(int corners, std::size_t picture_bytes) {
 class Report : public testing::Test {
  protected:
   /// A run's folder with the given events.
-  fs::path run_folder(const std::string& name, const std::vector<bench::Event>& events) {
+  fs::path run_folder(const std::string& name, const std::vector<scoring::ScoredEvent>& events) {
     const fs::path relative = fs::path("runs") / name;
     fs::create_directories(folder_.path() / relative);
-    bench::write_events(folder_.path() / relative / bench::kEventsFile, events,
-                        bench::sums_of(events));
+    scoring::write_events(folder_.path() / relative / scoring::kEventsFile, events,
+                          scoring::sums_of(events));
     return relative;
   }
   /// The baseline's runs are in "before".
@@ -98,7 +98,7 @@ class Report : public testing::Test {
   }
   std::string data_text(const SuiteResult& suite, const SuiteResult* baseline,
                         std::size_t budget) const {
-    return judged(suite, baseline, [&](const suite::Verdict& verdict, const Against* against) {
+    return judged(suite, baseline, [&](const suite::SuiteVerdict& verdict, const Against* against) {
       return report_data(in_folder(suite), verdict, against, budget);
     });
   }
@@ -108,7 +108,7 @@ class Report : public testing::Test {
   }
   std::string page(const SuiteResult& suite, const SuiteResult* baseline = nullptr) {
     const fs::path file = folder_.path() / kReportFile;
-    judged(suite, baseline, [&](const suite::Verdict& verdict, const Against* against) {
+    judged(suite, baseline, [&](const suite::SuiteVerdict& verdict, const Against* against) {
       write_report(file, in_folder(suite), verdict, against);
     });
     std::ifstream stream(file, std::ios::binary);
@@ -196,7 +196,7 @@ TEST_F(Report, OfWorldsTakesNoNameForMarkupOrForAScheme) {
   fs::create_directory(folder_.path() / kSheetsFolder);
   std::ofstream(folder_.path() / sheet_path(world)) << "a picture";
   write_worlds_page(folder_.path(), "about", suite_of({world}), {});
-  const std::string html = bench::read(folder_.path() / kWorldsFile);
+  const std::string html = test::read(folder_.path() / kWorldsFile);
   EXPECT_NE(html.find("<img src=\"worlds/x%22%20onerror=%22alert(1).jpg\""), html.npos);
   for (const char* sign : {"\" onerror", "\" onclick", "<img src=y", "=\"javascript:"}) {
     EXPECT_EQ(html.find(sign), html.npos) << sign;
@@ -208,7 +208,7 @@ TEST(TextPage, EscapesAllThatIsNotHtmlItself) {
   page.add("<i>{}</i>{} {:.1f}", std::string("<b>"), Html{"<hr/>"}, 1.25);
   const TemporaryFolder folder;
   page.write(folder.path() / "page.html");
-  const std::string html = bench::read(folder.path() / "page.html");
+  const std::string html = test::read(folder.path() / "page.html");
   EXPECT_NE(html.find("<i>&lt;b&gt;</i><hr/> 1.2"), html.npos) << html;
 }
 
@@ -333,13 +333,13 @@ TEST_F(Report, TellsWhatARunWarnsOf) {
 TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
   RunResult run = run_with(1, 0.8);
   run.folder = run_folder("one", {event_with(12, 8)});
-  bench::Recording recording;
+  recording::Recording recording;
   for (int k = 0; k < 3; ++k) {
-    bench::FrameRecord& frame = recording.frames.emplace_back();
+    recording::FrameRecord& frame = recording.frames.emplace_back();
     frame.index = k;
     frame.t_ns = k * std::int64_t{100'000'000};
   }
-  bench::write_frames(folder_.path() / run.folder / bench::kFramesFile, recording);
+  scoring::write_frames(folder_.path() / run.folder / scoring::kFramesFile, recording);
   const json all = data(suite_of({scenario_with("one", {run})}));
   const json& told = all["scenarios"][0]["runs"][0];
   EXPECT_EQ(told.at("frames").at("t_s"), (json{0, 0.1, 0.2}));
@@ -354,18 +354,19 @@ TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
 }
 
 TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone) {
-  const auto run_in = [&](const fs::path& folder, const std::vector<bench::Event>& events) {
+  const auto run_in = [&](const fs::path& folder, const std::vector<scoring::ScoredEvent>& events) {
     RunResult run = run_with(1, 0.8);
     run.folder = "runs/one";
     fs::create_directories(folder / run.folder);
-    bench::write_events(folder / run.folder / bench::kEventsFile, events, bench::sums_of(events));
-    bench::Recording recording;
+    scoring::write_events(folder / run.folder / scoring::kEventsFile, events,
+                          scoring::sums_of(events));
+    recording::Recording recording;
     recording.frames.resize(2);
-    bench::write_frames(folder / run.folder / bench::kFramesFile, recording);
+    scoring::write_frames(folder / run.folder / scoring::kFramesFile, recording);
     return run;
   };
-  const bench::Event kept = event_with(12, 8);
-  bench::Event later = kept, other = kept, as_false = kept;
+  const scoring::ScoredEvent kept = event_with(12, 8);
+  scoring::ScoredEvent later = kept, other = kept, as_false = kept;
   later.first_frame = later.last_frame = 30;
   other.object_name = "car";
   as_false.counted_corners = 0;
@@ -384,20 +385,20 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
   EXPECT_TRUE(run["before"]["gone"][0].at("views").empty());
 
   // A faulty baseline is reported, and the suite is still shown.
-  std::ofstream(folder_.path() / "before" / "runs" / "one" / bench::kFramesFile) << "frame\n";
+  std::ofstream(folder_.path() / "before" / "runs" / "one" / scoring::kFramesFile) << "frame\n";
   const json told = data(now, &before)["scenarios"][0]["runs"][0];
   EXPECT_NE(told["before"].at("error").get<std::string>().find("has no column"), std::string::npos);
   EXPECT_EQ(told.at("events").size(), 3u);
 }
 
 TEST_F(Report, EventsOfSquaresSayTheirFramesAndHowFarCornersCame) {
-  bench::Event event;
-  event.kind = bench::EventKind::square_split;
+  scoring::ScoredEvent event;
+  event.kind = scoring::EventKind::square_split;
   event.object_name = "box";
   event.corners = 12;
   event.frames = 7;
   event.of_frames = 9;
-  event.steps = {{bench::SquareStep::no_circle, 12}};
+  event.steps = {{scoring::SquareStep::no_circle, 12}};
   RunResult run = run_with(1, 0.8);
   run.folder = run_folder("one", {event});
   const json told = data(suite_of({scenario_with("one", {run})}))["scenarios"][0]["runs"][0];
@@ -406,7 +407,7 @@ TEST_F(Report, EventsOfSquaresSayTheirFramesAndHowFarCornersCame) {
   EXPECT_EQ(shown.at("frames"), 7);
   EXPECT_EQ(shown.at("of_frames"), 9);
   EXPECT_EQ(shown.at("reasons").at(0).at("meaning"),
-            bench::text_of(bench::SquareStep::no_circle).meaning);
+            scoring::text_of(scoring::SquareStep::no_circle).meaning);
 }
 
 TEST_F(Report, OfARunHasItsVideoWithin) {
@@ -414,13 +415,13 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
   run.folder = ".";
   const SuiteResult suite = suite_of({scenario_with("one", {run})});
   EXPECT_FALSE(json::parse(run_report_data(in_folder(suite))).contains("video"));
-  std::ofstream(folder_.path() / bench::kVideoFile) << "film";
+  std::ofstream(folder_.path() / output::kVideoFile) << "film";
   const json all = json::parse(run_report_data(in_folder(suite)));
   EXPECT_EQ(all.at("video"), "ZmlsbQ==");
   EXPECT_EQ(all.at("is_run"), true);
   EXPECT_EQ(all.at("verdict"), "1 of 1 criteria met, 0 failed");
   // A video that is too large for a page is named.
-  fs::resize_file(folder_.path() / bench::kVideoFile, kVideoBudget + 1'000'000);
+  fs::resize_file(folder_.path() / output::kVideoFile, kVideoBudget + 1'000'000);
   const json large = json::parse(run_report_data(in_folder(suite)));
   EXPECT_FALSE(large.contains("video"));
   EXPECT_EQ(large.at("video_left_out_mb"), 65);
@@ -429,10 +430,10 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
 TEST_F(Report, ABrokenFileOfARunIsNamed) {
   RunResult run = run_with(1, 0.8);
   run.folder = run_folder("one", {});
-  const fs::path frames = folder_.path() / run.folder / bench::kFramesFile;
+  const fs::path frames = folder_.path() / run.folder / scoring::kFramesFile;
   const auto expect_error = [&](const std::string& text, const std::string& part) {
     std::ofstream(frames) << text;
-    const std::string what = bench::refusal_of<std::runtime_error>(
+    const std::string what = test::refusal_of<std::runtime_error>(
         [&] { data(suite_of({scenario_with("one", {run})})); });
     EXPECT_NE(what.find(frames.string() + part), std::string::npos) << what;
   };
@@ -470,7 +471,7 @@ TEST_F(Report, ASuiteOfFortyScenariosStaysSmall) {
     for (std::uint64_t seed : {1, 2, 3}) {
       RunResult run = run_with(seed, 0.8);
       run.folder = run_folder(std::to_string(s) + "-" + std::to_string(seed),
-                              std::vector<bench::Event>(5, event_with(40, 60'000)));
+                              std::vector<scoring::ScoredEvent>(5, event_with(40, 60'000)));
       runs.push_back(run);
     }
     scenarios.push_back(scenario_with("scenario" + std::to_string(s), runs));
@@ -486,11 +487,11 @@ TEST_F(Report, AThousandScenariosAreLinksApartFromTheWorst) {
     std::vector<RunResult> runs;
     for (std::uint64_t seed : {1, 2, 3}) {
       RunResult run = run_with(seed, s == 700 ? 0.1 : 0.8);
-      for (const bench::Metric& metric : bench::metrics())
+      for (const scoring::Metric& metric : scoring::metrics())
         run.metrics.emplace_back(metric.key, 0.123456789012345);
       if (s == 700 || s == 999) {
         run.folder = run_folder(std::to_string(s) + "-" + std::to_string(seed),
-                                std::vector<bench::Event>(5, event_with(40, 60'000)));
+                                std::vector<scoring::ScoredEvent>(5, event_with(40, 60'000)));
       }
       runs.push_back(run);
     }
@@ -524,7 +525,7 @@ TEST_F(Report, ReplacesAnOlderPageAndLeavesNothingBeside) {
 TEST_F(Report, APlaceThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(
       write_report(folder_.path() / "missing" / kReportFile, in_folder(suite_of({})), {}, nullptr),
-      bench::OutputError);
+      files::OutputError);
 }
 
 }  // namespace

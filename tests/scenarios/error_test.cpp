@@ -420,7 +420,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Refused, WhenTheFileIsMissingAFolderOrHuge) {
   const ScenarioFolder folder;
   const auto message = [](const std::filesystem::path& file) {
-    return bench::refusal_of<input::Error>([&] { load(file); });
+    return test::refusal_of<input::Error>([&] { load(file); });
   };
   const std::filesystem::path missing = folder.path() / "missing.yaml";
   EXPECT_EQ(message(missing),

@@ -23,9 +23,9 @@ const fs::path kScenarios = fs::path(LCS_SOURCE_DIR) / "scenarios";
 /// Writes the correct schema into the build folder, for copying, if the shipped one differs.
 TEST(Keys, TheSchemaFollowsTheList) {
   const std::string right = schema_text();
-  if (bench::read(kScenarios / "scenario.schema.json") == right) return;
+  if (test::read(kScenarios / "scenario.schema.json") == right) return;
   const fs::path made = fs::path(LCS_BUILD_DIR) / "scenario.schema.json";
-  bench::write(made, right);
+  test::write(made, right);
   FAIL() << "scenarios/scenario.schema.json does not follow scenarios/fields.h; cp " << made << " "
          << kScenarios << ", which has:\n"
          << right;

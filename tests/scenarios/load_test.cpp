@@ -584,7 +584,7 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
 /// The blocks of YAML of scenarios/README.md, from `begin` to `end`, as one text.
 std::string yaml_of_the_readme(const std::string& begin, const std::string& end) {
   const std::string readme =
-      bench::read(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
+      test::read(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
   const std::size_t from = readme.find(begin), to = readme.find(end, from);
   EXPECT_NE(to, std::string::npos) << begin << " to " << end;
   const std::string fence = "```yaml\n";

@@ -24,7 +24,7 @@ class RecordingKeys : public testing::Test {
     return load(folder_.write("test.yaml", keys), options);
   }
   std::string refused(const std::string& keys) const {
-    return without_folder(bench::refusal_of<input::Error>([&] { loaded(keys); }), folder_);
+    return without_folder(test::refusal_of<input::Error>([&] { loaded(keys); }), folder_);
   }
   const ScenarioFolder folder_;
 };
@@ -58,7 +58,7 @@ TEST_F(RecordingKeys, AreReadWithTheirUnits) {
       "   mask: mask.png, at_rest: 2 s, labels: gt.txt, split: test}\n"
       "frames: 40\nego_motion: truth\ncorners: {threshold: 30}\nfilter: {circle.mu_0: 20}\n"
       "criteria: [{metric: rebel.f1, min: 0.5}]\ngroups: [real]\n");
-  const Recorded& r = s.recording.value();
+  const RecordingSource& r = s.recording.value();
   EXPECT_EQ(r.format, "pictures");
   EXPECT_EQ(r.camera, "cam1");
   EXPECT_EQ(r.fps, 25);
@@ -76,7 +76,7 @@ TEST_F(RecordingKeys, AreReadWithTheirUnits) {
   EXPECT_EQ(r.mask, folder_.path() / "mask.png");
   EXPECT_EQ(r.at_rest_s, 2);
   EXPECT_EQ(r.labels, folder_.path() / "gt.txt");
-  EXPECT_EQ(r.split, Recorded::Split::test);
+  EXPECT_EQ(r.split, RecordingSource::Split::test);
   EXPECT_EQ(s.frames, 40);
   EXPECT_EQ(s.ego_motion, EgoMotionSource::truth);
   EXPECT_EQ(s.fast_threshold, 30);

@@ -15,7 +15,7 @@
 namespace lcs::scenario {
 
 /// A folder with a scene, in which tests write scenario files.
-class ScenarioFolder : public bench::TemporaryFolder {
+class ScenarioFolder : public test::TemporaryFolder {
  public:
   ScenarioFolder() { write("room.xml", "<mujoco/>"); }
 
@@ -45,7 +45,7 @@ inline std::string without_folder(std::string message, const ScenarioFolder& fol
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   const ScenarioFolder folder;
   const auto file = folder.write("test.yaml", text);
-  return without_folder(bench::refusal_of<input::Error>([&] { load(file, options); }), folder);
+  return without_folder(test::refusal_of<input::Error>([&] { load(file, options); }), folder);
 }
 
 }  // namespace lcs::scenario

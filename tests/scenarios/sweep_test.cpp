@@ -19,7 +19,7 @@ std::vector<SweepPoint> points_of(const std::string& lines) {
 std::string sweep_refusal(const std::string& lines) {
   const ScenarioFolder folder;
   const auto file = folder.write("test.yaml", smallest + lines);
-  return without_folder(bench::refusal_of<input::Error>([&] { sweep_points(file); }), folder);
+  return without_folder(test::refusal_of<input::Error>([&] { sweep_points(file); }), folder);
 }
 
 TEST(Groups, AreShortUnlessTheFileSays) {

@@ -4,7 +4,7 @@
 
 #include "tests/tools/refusal.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 scenario::Criterion criterion(const std::string& metric, std::optional<double> min,
@@ -49,9 +49,9 @@ TEST(Criteria, AnUnknownMetricIsRefusedAtItsLineWithTheNearestOne) {
   EXPECT_NO_THROW(require_known_metrics({criterion("rebel.f1", 0.6, {})}));
   const std::vector<scenario::Criterion> criteria{criterion("rebel.f1", 0.6, {}),
                                                   criterion("rebel.recal", 0.6, {})};
-  EXPECT_EQ(refusal_of<input::Error>([&] { require_known_metrics(criteria); }),
+  EXPECT_EQ(test::refusal_of<input::Error>([&] { require_known_metrics(criteria); }),
             "crossing.yaml:31: no metric is called 'rebel.recal'; did you mean 'rebel.recall'?");
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -11,15 +11,15 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/output/event_pictures.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 constexpr int kFrames = 20, kCorners = 6;
-const PixelBox kMover{100, 100, 140, 150};
+const test::PixelBox kMover{100, 100, 140, 150};
 
 /// A mover with six corners, of which `missed` are missed, and a static wall far from it.
-FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) {
-  FrameMaker frame(index);
+test::FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) {
+  test::FrameMaker frame(index);
   frame.object(1, kMover, true);
   for (int i = 0; i < kCorners; ++i) {
     const bool is_missed = i < missed;
@@ -36,7 +36,7 @@ FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) 
 }
 
 /// Calls `corners` of the wall's corners rebels.
-void accuse(FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
+void accuse(test::FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
   for (int i = 0; i < corners; ++i) {
     frame.record().corners_px[kCorners + i] += shift;
     frame.record().verdicts[kCorners + i] = Verdict::rebel;
@@ -46,17 +46,17 @@ void accuse(FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
 
 /// A recording with `missed(k)` missed corners in frame k.
 template <class Missed>
-Recording recording_with(Missed&& missed) {
-  std::vector<FrameRecord> frames;
+recording::Recording recording_with(Missed&& missed) {
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) frames.push_back(frame_of(k, missed(k)));
-  return recording_of(frames);
+  return test::recording_of(frames);
 }
 
 int all_until(int last, int k) {
   return k <= last ? kCorners : 0;
 }
 
-RebelCounts total(const Recording& recording) {
+RebelCounts total(const recording::Recording& recording) {
   RebelCounts sum;
   for (const RebelCounts& frame : score_frames(recording)) sum += frame;
   return sum;
@@ -64,18 +64,18 @@ RebelCounts total(const Recording& recording) {
 
 TEST(Events, ARunWithoutFaultsHasNone) {
   EXPECT_TRUE(find_events(recording_with([](int) { return 0; })).empty());
-  EXPECT_TRUE(find_events(recording_of({})).empty());
+  EXPECT_TRUE(find_events(test::recording_of({})).empty());
 }
 
 TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
-  const Recording recording = recording_with([](int) { return kCorners; });
+  const recording::Recording recording = recording_with([](int) { return kCorners; });
   const auto events = find_events(recording);
   ASSERT_EQ(events.size(), 1u);
-  const Event& event = events[0];
+  const ScoredEvent& event = events[0];
   EXPECT_EQ(event.kind, EventKind::never_found);
   EXPECT_EQ(event.object, 1);
   EXPECT_EQ(event.object_name, "mover");
-  EXPECT_EQ(event.first_frame, kSightings);
+  EXPECT_EQ(event.first_frame, recording::kSightings);
   EXPECT_EQ(event.last_frame, kFrames - 1);
   EXPECT_EQ(event.corners, total(recording).missed_rebels);
   EXPECT_EQ(event.counted_corners, event.corners);
@@ -83,14 +83,14 @@ TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
 }
 
 TEST(Events, CountTheRadialCornersAmongTheMissedOnes) {
-  Recording recording = recording_with([](int) { return kCorners; });
+  recording::Recording recording = recording_with([](int) { return kCorners; });
   EXPECT_EQ(find_events(recording).at(0).radial_corners, 0);
-  for (FrameRecord& frame : recording.frames) {
+  for (recording::FrameRecord& frame : recording.frames) {
     for (sim::CornerTruth& truth : frame.corner_truth) {
       truth.radial = truth.label == sim::Label::rebel;
     }
   }
-  const Event event = find_events(recording).at(0);
+  const ScoredEvent event = find_events(recording).at(0);
   EXPECT_EQ(event.radial_corners, event.corners);
 }
 
@@ -98,7 +98,7 @@ TEST(Events, AnObjectThatIsFoundAtLastIsLate) {
   const auto events = find_events(recording_with([](int k) { return all_until(9, k); }));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::found_late);
-  EXPECT_EQ(events[0].first_frame, kSightings);
+  EXPECT_EQ(events[0].first_frame, recording::kSightings);
   EXPECT_EQ(events[0].last_frame, 9);
 }
 
@@ -129,11 +129,11 @@ TEST(Events, FramesOfOneMissMergeOverTwoGoodOnesNotOverThree) {
 }
 
 TEST(Events, ReasonsAreCountedMostFrequentFirst) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
     frames.push_back(frame_of(k, kCorners, k < 8 ? Reason::first_sighting : Reason::normal_edge));
   }
-  const auto events = find_events(recording_of(frames));
+  const auto events = find_events(test::recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].reasons,
             (decltype(events[0].reasons){{Reason::normal_edge, 12 * kCorners},
@@ -141,61 +141,61 @@ TEST(Events, ReasonsAreCountedMostFrequentFirst) {
 }
 
 TEST(Events, ADetectorWithoutReasonsHasUnknownOnes) {
-  Recording recording = recording_with([](int) { return kCorners; });
-  for (FrameRecord& frame : recording.frames) frame.reasons.clear();
+  recording::Recording recording = recording_with([](int) { return kCorners; });
+  for (recording::FrameRecord& frame : recording.frames) frame.reasons.clear();
   EXPECT_EQ(find_events(recording).at(0).reasons.at(0).first, Reason::unknown);
 }
 
 TEST(Events, FalseRebelsFarFromAnyMoverAreAnAlarmFollowedThroughTheFrames) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, 0);
+    test::FrameMaker frame = frame_of(k, 0);
     if (k >= 6 && k < 10) accuse(frame, 4, {0, static_cast<float>(3 * k)});
     frames.push_back(frame);
   }
-  const auto events = find_events(recording_of(frames));
+  const auto events = find_events(test::recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::false_alarm);
   EXPECT_EQ(events[0].object, 0);
   EXPECT_EQ(events[0].first_frame, 6);
   EXPECT_EQ(events[0].last_frame, 9);
-  EXPECT_EQ(events[0].corners, total(recording_of(frames)).false_rebels);
+  EXPECT_EQ(events[0].corners, total(test::recording_of(frames)).false_rebels);
   EXPECT_EQ(events[0].reasons.at(0).first, Reason::inherited);
 }
 
 TEST(Events, TwoFalseRebelsAreNoAlarm) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, 0);
+    test::FrameMaker frame = frame_of(k, 0);
     accuse(frame, 2);
     frames.push_back(frame);
   }
-  EXPECT_TRUE(find_events(recording_of(frames)).empty());
+  EXPECT_TRUE(find_events(test::recording_of(frames)).empty());
 }
 
 TEST(Events, FalseRebelsRoundAMoverAreItsHalo) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, 0);
+    test::FrameMaker frame = frame_of(k, 0);
     accuse(frame, 4, {-290, -180});  // to x from 110 to 140, y = 120: in the mover's box
     frames.push_back(frame);
   }
-  const auto events = find_events(recording_of(frames));
+  const auto events = find_events(test::recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::halo);
   EXPECT_EQ(events[0].object, 1);
-  EXPECT_EQ(events[0].corners, 4 * (kFrames - kSightings));
+  EXPECT_EQ(events[0].corners, 4 * (kFrames - recording::kSightings));
 }
 
 TEST(Events, ARebelCircleWithNothingUnderItIsAFalseObjectAndOneOverAMoverIsNone) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, 0);
+    test::FrameMaker frame = frame_of(k, 0);
     frame.rebel_circle({120, 120}, 30);
     if (k == 7 || k == 8) frame.rebel_circle({500, 100}, 15);
     frames.push_back(frame);
   }
-  const auto events = find_events(recording_of(frames));
+  const auto events = find_events(test::recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::circle_false);
   EXPECT_EQ(events[0].circles, 2);
@@ -204,53 +204,53 @@ TEST(Events, ARebelCircleWithNothingUnderItIsAFalseObjectAndOneOverAMoverIsNone)
 }
 
 TEST(Events, FalseObjectsAreKeptHoweverManyCornersAreMissedOrFalse) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, k < 12 ? kCorners : 0);
+    test::FrameMaker frame = frame_of(k, k < 12 ? kCorners : 0);
     if (k >= 15) accuse(frame, 4);
     frame.rebel_circle({500, 100}, 15);
     if (k < 10) frame.rebel_circle({400, 300}, 15);  // over one corner of the wall
     frames.push_back(frame);
   }
-  const auto events = find_events(recording_of(frames), 1);
+  const auto events = find_events(test::recording_of(frames), 1);
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(family_of(events[0].kind), EventFamily::rebels);
   EXPECT_EQ(events[1].kind, EventKind::circle_false);
-  EXPECT_EQ(events[1].circles, kFrames - kSightings) << "that which is seen longer";
-  EXPECT_EQ(find_events(recording_of(frames)).size(), 4u);
+  EXPECT_EQ(events[1].circles, kFrames - recording::kSightings) << "that which is seen longer";
+  EXPECT_EQ(find_events(test::recording_of(frames)).size(), 4u);
 }
 
 TEST(Events, NothingIsFalseDuringTheWarmUp) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, 0);
-    if (k < kSightings) accuse(frame, 4);
-    if (k < kSightings) frame.rebel_circle({500, 100}, 15);
+    test::FrameMaker frame = frame_of(k, 0);
+    if (k < recording::kSightings) accuse(frame, 4);
+    if (k < recording::kSightings) frame.rebel_circle({500, 100}, 15);
     frames.push_back(frame);
   }
-  EXPECT_TRUE(find_events(recording_of(frames)).empty());
+  EXPECT_TRUE(find_events(test::recording_of(frames)).empty());
 }
 
 TEST(Events, TheCostliestComeFirstAndNoMoreThanAskedFor) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame = frame_of(k, k >= 5 && k < 8 ? kCorners : 0);
+    test::FrameMaker frame = frame_of(k, k >= 5 && k < 8 ? kCorners : 0);
     if (k >= 10) accuse(frame, 4);
     frames.push_back(frame);
   }
-  const auto events = find_events(recording_of(frames));
+  const auto events = find_events(test::recording_of(frames));
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, EventKind::false_alarm);
   EXPECT_EQ(events[0].corners, 40);
   EXPECT_EQ(events[1].corners, 18);
-  EXPECT_EQ(find_events(recording_of(frames), 1).size(), 1u);
+  EXPECT_EQ(find_events(test::recording_of(frames), 1).size(), 1u);
 }
 
 TEST(Events, UpToFiveFramesAreShownFromTheOneBeforeToTheOneAfter) {
   const auto events = find_events(recording_with([](int k) { return all_until(15, k); }));
   const std::vector<EventView>& views = events.at(0).views;
   ASSERT_EQ(views.size(), 5u);
-  EXPECT_EQ(views.front().frame, kSightings - 1);
+  EXPECT_EQ(views.front().frame, recording::kSightings - 1);
   EXPECT_EQ(views.back().frame, 16);
   for (const EventView& view : views) {
     EXPECT_EQ(view.centre_px, Vec2(119.5, 124.5));
@@ -278,27 +278,27 @@ cv::Mat3b decoded(const std::string& text) {
 }
 
 /// The events with their pictures, of frames that all show the same.
-std::vector<Event> painted(const Recording& recording, const cv::Mat3b& picture) {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / kPicturesFile;
-  PicturesWriter writer(file);
+std::vector<ScoredEvent> painted(const recording::Recording& recording, const cv::Mat3b& picture) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / output::kPicturesFile;
+  output::PicturesWriter writer(file);
   RebelScorer scorer;
-  for (const FrameRecord& frame : recording.frames) {
+  for (const recording::FrameRecord& frame : recording.frames) {
     writer.write(picture);
     scorer.add(frame);
   }
   writer.close();
-  const FramePictures pictures(file, picture.size());
+  const output::FramePictures pictures(file, picture.size());
   auto events = find_events(recording);
-  for (const FrameRecord& frame : recording.frames) {
-    if (!frames_shown(events).contains(frame.index)) continue;
-    paint_views(frame, corner_outcomes(frame, scorer.detections()), pictures, events);
+  for (const recording::FrameRecord& frame : recording.frames) {
+    if (!output::frames_shown(events).contains(frame.index)) continue;
+    output::paint_views(frame, corner_outcomes(frame, scorer.detections()), pictures, events);
   }
   return events;
 }
 
 TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
-  const Recording recording = recording_with([](int) { return kCorners; });
+  const recording::Recording recording = recording_with([](int) { return kCorners; });
   for (const int width : {640, 1280}) {
     // The places are the same at any stored size of pictures.
     SCOPED_TRACE(width);
@@ -306,7 +306,8 @@ TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
         painted(recording, cv::Mat3b(width * 3 / 4, width, cv::Vec3b(128, 128, 128)));
     const EventView& view = events.at(0).views.at(2);
     const cv::Mat3b picture = decoded(view.jpeg_base64);
-    ASSERT_EQ(picture.size(), cv::Size(kEventPictureWidth_px, kEventPictureHeight_px));
+    ASSERT_EQ(picture.size(),
+              cv::Size(output::kEventPictureWidth_px, output::kEventPictureHeight_px));
     // Grey except for the box and the corners: orange occurs, magenta and green do not.
     int orange = 0, magenta = 0, green = 0;
     for (const cv::Vec3b& px : picture) {
@@ -324,30 +325,30 @@ TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
 }
 
 TEST(EventPictures, AreWholeAtTheImagesBorder) {
-  std::vector<FrameRecord> frames;
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     frame.object(1, {0, 0, 20, 20}, true);
     for (int i = 0; i < kCorners; ++i) {
       frame.corner(Verdict::pending, sim::Label::rebel, 1, false, {static_cast<float>(i), 0});
     }
     frames.push_back(frame);
   }
-  const Recording recording = recording_of(frames);
+  const recording::Recording recording = test::recording_of(frames);
   const auto events = painted(recording, cv::Mat3b(60, 80, cv::Vec3b(9, 9, 9)));
   for (const EventView& view : events.at(0).views) {
-    EXPECT_EQ(decoded(view.jpeg_base64).cols, kEventPictureWidth_px);
+    EXPECT_EQ(decoded(view.jpeg_base64).cols, output::kEventPictureWidth_px);
   }
 }
 
 // ---- The file
 
 TEST(EventsFile, ComesBackAsItWas) {
-  Recording recording = recording_with([](int k) { return all_until(9, k); });
+  recording::Recording recording = recording_with([](int k) { return all_until(9, k); });
   recording.objects[0].name = "a \"mover\" <b>";
   auto events = find_events(recording);
   events.at(0).views.at(0).jpeg_base64 = base64("bytes");
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.path() / kEventsFile;
   write_events(file, events, sums_of(events));
   const auto back = read_events(file);
@@ -375,10 +376,10 @@ TEST(EventsFile, ComesBackAsItWas) {
 }
 
 TEST(EventsFile, MistakesAreToldWithTheFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.path() / kEventsFile;
   const auto expect_error = [&](const std::string& part) {
-    const std::string what = refusal_of<std::runtime_error>([&] { read_events(file); });
+    const std::string what = test::refusal_of<std::runtime_error>([&] { read_events(file); });
     EXPECT_NE(what.find(file.string()), std::string::npos) << what;
     EXPECT_NE(what.find(part), std::string::npos) << what;
   };
@@ -402,14 +403,14 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
 
 // ---- Squares
 
-constexpr PixelBox kCrate{300, 100, 380, 180}, kBeside{390, 100, 470, 180};
+constexpr test::PixelBox kCrate{300, 100, 380, 180}, kBeside{390, 100, 470, 180};
 
 /// Events of frames with two crates and the squares added by `squares`.
 template <class Squares>
-std::vector<Event> square_events(Squares&& squares) {
-  std::vector<FrameRecord> frames;
+std::vector<ScoredEvent> square_events(Squares&& squares) {
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     for (const auto& [id, box] : {std::pair(1, kCrate), std::pair(2, kBeside)}) {
       frame.object(id, box, false);
       for (int i = 0; i < 4; ++i) {
@@ -420,11 +421,11 @@ std::vector<Event> square_events(Squares&& squares) {
     squares(frame, k);
     frames.push_back(frame);
   }
-  return find_square_events(recording_of(frames));
+  return find_square_events(test::recording_of(frames));
 }
 
 TEST(SquareEvents, ObjectsWithTheirSquaresHaveNone) {
-  EXPECT_TRUE(square_events([](FrameMaker& frame, int) {
+  EXPECT_TRUE(square_events([](test::FrameMaker& frame, int) {
                 frame.square(1, kCrate).square(2, kBeside);
               }).empty());
 }
@@ -432,7 +433,8 @@ TEST(SquareEvents, ObjectsWithTheirSquaresHaveNone) {
 TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
   const struct {
     EventKind kind;
-    std::vector<PixelBox> squares;  // on the first crate, and on the second if they reach that far
+    std::vector<test::PixelBox>
+        squares;  // on the first crate, and on the second if they reach that far
     std::size_t events;
   } cases[] = {
       {EventKind::square_missed, {kBeside}, 1},
@@ -442,7 +444,7 @@ TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
       {EventKind::square_size, {kBeside, {330, 130, 420, 220}}, 1},
   };
   for (const auto& each : cases) {
-    const auto events = square_events([&](FrameMaker& frame, int k) {
+    const auto events = square_events([&](test::FrameMaker& frame, int k) {
       if (k < 5 || k >= 15) {
         frame.square(90, kCrate).square(91, kBeside);
         return;
@@ -461,7 +463,7 @@ TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
 }
 
 TEST(SquareEvents, OneOnNoObjectIsFollowedByItsId) {
-  const auto events = square_events([](FrameMaker& frame, int k) {
+  const auto events = square_events([](test::FrameMaker& frame, int k) {
     frame.square(1, kCrate).square(2, kBeside);
     if (k >= 8 && k < 12) frame.square(7, {20, 300, 80, 360});
   });
@@ -472,7 +474,7 @@ TEST(SquareEvents, OneOnNoObjectIsFollowedByItsId) {
 }
 
 TEST(SquareEvents, TellHowFarTheObjectsCornersCame) {
-  const auto events = square_events([](FrameMaker& frame, int) {
+  const auto events = square_events([](test::FrameMaker& frame, int) {
     frame.square(2, kBeside);
     Layers& layers = frame.record().layers;
     Circle circle;
@@ -492,7 +494,7 @@ TEST(SquareEvents, TellHowFarTheObjectsCornersCame) {
                                                       {SquareStep::no_circle, kFramesScored}};
   EXPECT_EQ(events[0].steps, steps);
 
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_events(folder.path() / kEventsFile, events, sums_of(events));
   const auto read = read_events(folder.path() / kEventsFile);
   ASSERT_EQ(read.size(), 1u);
@@ -505,4 +507,4 @@ TEST(SquareEvents, TellHowFarTheObjectsCornersCame) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

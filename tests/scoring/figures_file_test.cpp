@@ -14,15 +14,15 @@
 #include "tools/output/table.h"
 #include "tools/recording/warnings.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 using sim::Label;
 
-Recording five_frames(bool with_times) {
-  std::vector<FrameRecord> frames;
+recording::Recording five_frames(bool with_times) {
+  std::vector<recording::FrameRecord> frames;
   for (int k = 0; k < 5; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     frame.corners(2, Verdict::rebel, Label::fixed).corners(3, Verdict::ignored, Label::fixed);
     if (k == 4) frame.corners(6, Verdict::rebel, Label::rebel, 1);
     frame.square(1, {0, 0, 30, 30}).rebel_circle({100, 100}, 5);
@@ -33,10 +33,11 @@ Recording five_frames(bool with_times) {
     layers.ignored.resize(2);
     layers.collectors.resize(5);
     layers.chains.resize(9);
-    if (with_times) frame.record().times = FrameTimes{.detect_ms = 0.25, .filter_ms = 1.5};
+    if (with_times)
+      frame.record().times = recording::FrameTimes{.detect_ms = 0.25, .filter_ms = 1.5};
     frames.push_back(frame);
   }
-  return recording_of(frames);
+  return test::recording_of(frames);
 }
 
 /// Rows by column name; every row must have as many fields as the header.
@@ -69,7 +70,7 @@ std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::
 }
 
 TEST(FramesCsv, HasARowAFrameWithTheSizesOfAllLayers) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_frames(folder.path() / kFramesFile, five_frames(true));
   const auto rows = read_csv(folder.path() / kFramesFile);
   ASSERT_EQ(rows.size(), 5u);
@@ -87,7 +88,7 @@ TEST(FramesCsv, HasARowAFrameWithTheSizesOfAllLayers) {
 }
 
 TEST(FramesCsv, LeavesUndefinedFieldsEmpty) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_frames(folder.path() / kFramesFile, five_frames(false));
   const auto rows = read_csv(folder.path() / kFramesFile);
   EXPECT_EQ(rows[0].at("precision"), "") << "a frame of the warm-up";
@@ -97,47 +98,48 @@ TEST(FramesCsv, LeavesUndefinedFieldsEmpty) {
 }
 
 TEST(FramesCsv, OfNoFramesIsItsHeader) {
-  const TemporaryFolder folder;
-  write_frames(folder.path() / kFramesFile, recording_of({}));
+  const test::TemporaryFolder folder;
+  write_frames(folder.path() / kFramesFile, test::recording_of({}));
   EXPECT_TRUE(read_csv(folder.path() / kFramesFile).empty());
   EXPECT_GT(std::filesystem::file_size(folder.path() / kFramesFile), 0u);
 }
 
 TEST(FramesCsv, GivesARecordingItsTimesAgainToTheLastBit) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kFramesFile;
-  Recording written = five_frames(true);
-  written.frames[1].times = FrameTimes{.simulate_ms = 1.0 / 3,
-                                       .detect_ms = 0.1 + 0.2,
-                                       .describe_ms = 0.7,
-                                       .line_ms = 1e-7,
-                                       .circle_ms = 2.0 / 7,
-                                       .square_ms = 12345.678901234567,
-                                       .filter_ms = 1e22,
-                                       .truth_ms = 5e-324};
+  recording::Recording written = five_frames(true);
+  written.frames[1].times = recording::FrameTimes{.simulate_ms = 1.0 / 3,
+                                                  .detect_ms = 0.1 + 0.2,
+                                                  .describe_ms = 0.7,
+                                                  .line_ms = 1e-7,
+                                                  .circle_ms = 2.0 / 7,
+                                                  .square_ms = 12345.678901234567,
+                                                  .filter_ms = 1e22,
+                                                  .truth_ms = 5e-324};
   written.frames[2].times.reset();
   write_frames(path, written);
-  Recording read = five_frames(false);
+  recording::Recording read = five_frames(false);
   read_times(path, read);
   EXPECT_FALSE(read.frames[2].times);
-  const FrameTimes &a = written.frames[1].times.value(), &b = read.frames[1].times.value();
-  for (const auto member :
-       {&FrameTimes::simulate_ms, &FrameTimes::detect_ms, &FrameTimes::describe_ms,
-        &FrameTimes::line_ms, &FrameTimes::circle_ms, &FrameTimes::square_ms,
-        &FrameTimes::filter_ms, &FrameTimes::truth_ms}) {
+  const recording::FrameTimes &a = written.frames[1].times.value(),
+                              &b = read.frames[1].times.value();
+  for (const auto member : {&recording::FrameTimes::simulate_ms, &recording::FrameTimes::detect_ms,
+                            &recording::FrameTimes::describe_ms, &recording::FrameTimes::line_ms,
+                            &recording::FrameTimes::circle_ms, &recording::FrameTimes::square_ms,
+                            &recording::FrameTimes::filter_ms, &recording::FrameTimes::truth_ms}) {
     EXPECT_EQ(a.*member, b.*member);
   }
   EXPECT_EQ(score(written), score(read));
 }
 
 TEST(FramesCsv, FromBeforeThereWereSignaturesHasTheOtherTimes) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kFramesFile;
   std::ofstream(path) << "frame,simulate_ms,detect_ms,line_ms,circle_ms,square_ms,filter_ms,"
                          "truth_ms\n0,1,2,3,4,5,6,7\n1,,,,,,,\n2,,,,,,,\n3,,,,,,,\n4,,,,,,,\n";
-  Recording read = five_frames(false);
+  recording::Recording read = five_frames(false);
   read_times(path, read);
-  const FrameTimes& times = read.frames[0].times.value();
+  const recording::FrameTimes& times = read.frames[0].times.value();
   EXPECT_EQ(times.detect_ms, 2);
   EXPECT_EQ(times.describe_ms, 0);
   EXPECT_EQ(times.truth_ms, 7);
@@ -145,8 +147,8 @@ TEST(FramesCsv, FromBeforeThereWereSignaturesHasTheOtherTimes) {
 }
 
 TEST(FramesCsv, LeavesOutWhatADetectorWithoutLayersDoesNotHave) {
-  const TemporaryFolder folder;
-  Recording recording = five_frames(true);
+  const test::TemporaryFolder folder;
+  recording::Recording recording = five_frames(true);
   recording.detector = {.name = "klt", .layered = false};
   write_frames(folder.path() / kFramesFile, recording);
   const auto rows = read_csv(folder.path() / kFramesFile);
@@ -157,9 +159,9 @@ TEST(FramesCsv, LeavesOutWhatADetectorWithoutLayersDoesNotHave) {
 }
 
 TEST(FramesCsv, MismatchWithTheRecordingIsRefusedAtItsLine) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kFramesFile;
-  Recording recording = five_frames(true);
+  recording::Recording recording = five_frames(true);
   const std::string header =
       "frame,simulate_ms,detect_ms,line_ms,circle_ms,square_ms,filter_ms,truth_ms\n";
   const std::pair<std::string, const char*> wrong[] = {
@@ -175,7 +177,7 @@ TEST(FramesCsv, MismatchWithTheRecordingIsRefusedAtItsLine) {
   for (const auto& [text, message] : wrong) {
     std::ofstream(path) << text;
     EXPECT_EQ(
-        refusal_of<std::runtime_error>([&] { read_times(path, recording); }),
+        test::refusal_of<std::runtime_error>([&] { read_times(path, recording); }),
         path.string() + message + "; run the scenario again, or remove the file to have no times");
   }
   EXPECT_THROW(read_times(folder.path() / "none.csv", recording), std::runtime_error);
@@ -183,15 +185,15 @@ TEST(FramesCsv, MismatchWithTheRecordingIsRefusedAtItsLine) {
 
 TEST(Warnings, AreOfFewCornersWhereMoreThanHalfOfTheFramesHaveThem) {
   const auto few = [](int frames_with_nine, int frames_with_ten) {
-    std::vector<FrameRecord> frames;
+    std::vector<recording::FrameRecord> frames;
     for (int k = 0; k < frames_with_ten + frames_with_nine; ++k) {
-      frames.push_back(
-          FrameMaker(k).corners(k < frames_with_ten ? 10 : 9, Verdict::normal, sim::Label::fixed));
+      frames.push_back(test::FrameMaker(k).corners(k < frames_with_ten ? 10 : 9, Verdict::normal,
+                                                   sim::Label::fixed));
     }
-    for (const Warned& warned : warnings_of(recording_of(std::move(frames)))) {
+    for (const recording::Warned& warned : warnings_of(test::recording_of(std::move(frames)))) {
       if (warned.word == "few_corners") return warned;
     }
-    return Warned{};
+    return recording::Warned{};
   };
   EXPECT_EQ(few(0, 2).word, "few_corners");
   EXPECT_EQ(few(0, 2).count, 0);
@@ -204,7 +206,7 @@ TEST(Warnings, AreOfFewCornersWhereMoreThanHalfOfTheFramesHaveThem) {
 }
 
 TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Metrics metrics = score(five_frames(true));
   write_metrics(folder.path() / kMetricsFile, metrics);
   std::ifstream file(folder.path() / kMetricsFile);
@@ -226,16 +228,18 @@ TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {
 }
 
 TEST(MetricsJson, ComesBackToTheLastBit) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Metrics metrics = score(five_frames(true));
   write_metrics(folder.path() / kMetricsFile, metrics);
   EXPECT_EQ(read_metrics(folder.path() / kMetricsFile), metrics);
 }
 
 TEST(MetricsJson, MissingOrDamagedFileIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kMetricsFile;
-  const auto refusal = [&] { return refusal_of<std::runtime_error>([&] { read_metrics(path); }); };
+  const auto refusal = [&] {
+    return test::refusal_of<std::runtime_error>([&] { read_metrics(path); });
+  };
   EXPECT_NE(refusal().find(path.string()), std::string::npos) << "missing";
   for (const char* text : {"", "{\"rebel.f1\": 0.5", "{\"rebel.f1\": \"much\"}"}) {
     std::ofstream(path) << text;
@@ -244,32 +248,32 @@ TEST(MetricsJson, MissingOrDamagedFileIsNamed) {
 }
 
 TEST(Table, IsAFewLinesThatFitATerminalAndShowsADashForWhatIsUndefined) {
-  for (const Recording& recording : {Recording{}, five_frames(true)}) {
-    std::istringstream text(table(score(recording)));
+  for (const recording::Recording& recording : {recording::Recording{}, five_frames(true)}) {
+    std::istringstream text(output::table(score(recording)));
     int lines = 0;
     for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
     EXPECT_EQ(lines, 6);  // rebels, a remark on them, objects, squares, size, time
   }
-  const std::string empty = table(score(Recording{}));
+  const std::string empty = output::table(score(recording::Recording{}));
   EXPECT_NE(empty.find("nothing to find"), std::string::npos) << empty;
   EXPECT_NE(empty.find("latency -"), std::string::npos) << empty;
-  const std::string some = table(score(five_frames(true)));
+  const std::string some = output::table(score(five_frames(true)));
   EXPECT_NE(some.find("false corners 2.0 per frame"), std::string::npos) << some;
 }
 
 TEST(Reports, AFileThatCannotBeWrittenIsNamedWithTheReason) {
   const std::filesystem::path nowhere = "/no/such/folder/metrics.json";
-  const std::string what =
-      refusal_of<OutputError>([&] { write_metrics(nowhere, score(Recording{})); });
+  const std::string what = test::refusal_of<files::OutputError>(
+      [&] { write_metrics(nowhere, score(recording::Recording{})); });
   EXPECT_NE(what.find(nowhere.string()), std::string::npos) << what;
   EXPECT_NE(what.find("No such file"), std::string::npos) << what;
 }
 
 TEST(Reports, AFullDiskIsNoticed) {
   // The kernel's always-full device.
-  EXPECT_THROW(write_metrics("/dev/full", score(Recording{})), OutputError);
-  EXPECT_THROW(write_frames("/dev/full", five_frames(true)), OutputError);
+  EXPECT_THROW(write_metrics("/dev/full", score(recording::Recording{})), files::OutputError);
+  EXPECT_THROW(write_frames("/dev/full", five_frames(true)), files::OutputError);
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -14,7 +14,7 @@
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 TEST(Metrics, HaveAKeyOfTheirOwn) {
@@ -27,7 +27,7 @@ TEST(Metrics, AreOneForEachWarning) {
   for (const Metric& metric : metrics()) {
     if (metric.key.starts_with("warnings.")) known.push_back(metric.key);
   }
-  for (const Warned& warned : WarningWatch(Truth::all).warned({}))
+  for (const recording::Warned& warned : recording::WarningWatch(recording::Truth::all).warned({}))
     given.push_back("warnings." + warned.word);
   EXPECT_EQ(known, given);
 }
@@ -100,7 +100,7 @@ std::string markdown() {
 }
 
 TEST(Metrics, AreAllInTheListOfScoringMd) {
-  std::string document = read(LCS_SCORING_MD);
+  std::string document = test::read(LCS_SCORING_MD);
   const std::string begin = "<!-- metrics -->\n", end = "<!-- end of metrics -->";
   const std::size_t first = document.find(begin) + begin.size();
   const std::size_t size = document.find(end) - first;
@@ -114,4 +114,4 @@ TEST(Metrics, AreAllInTheListOfScoringMd) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -8,7 +8,7 @@
 #include "filter/squares/convex_hull.h"
 #include "tests/tools/recordings.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 constexpr int kSide = 40;
@@ -71,7 +71,7 @@ TEST_F(Regions, OfOutlinesBoxesAndMasksOverlapAsPixelByPixel) {
     const Outline one = outline(3 + i % 12), other = outline(3 + i % 5);
     const cv::Mat1b picture = this->picture();
     const Vec2 low{number(0, 15), number(0, 15)}, high{number(15, 39), number(15, 39)};
-    const Box box{low, high};
+    const recording::Box box{low, high};
     const Oracle of_one([&](const Vec2& x) { return is_in(one, x); });
     const Oracle of_other([&](const Vec2& x) { return is_in(other, x); });
     const Oracle of_box([&](const Vec2& x) { return box.contains(x); });
@@ -105,9 +105,9 @@ TEST_F(Regions, AnOutlineThroughTheCornersOfABoxOfPixelsCoversAllOfThem) {
 TEST_F(Regions, AreNoneOfNothingAndBoundedHoweverFarTheyReach) {
   EXPECT_EQ(region_of(Outline{}).pixels, 0);
   EXPECT_EQ(intersection_over_union(Region{}, Region{}), 0);
-  const Region far = region_of(Box{Vec2(-1e300, -1e300), Vec2(1e300, 1e300)});
+  const Region far = region_of(recording::Box{Vec2(-1e300, -1e300), Vec2(1e300, 1e300)});
   EXPECT_EQ(far.pixels, 65537LL * 65537);
-  EXPECT_EQ(region_of(Box{Vec2(1e6, 0), Vec2(1e7, 10)}).stretches.size(), 1u);
+  EXPECT_EQ(region_of(recording::Box{Vec2(1e6, 0), Vec2(1e7, 10)}).stretches.size(), 1u);
   Outline wide;
   wide.count = 3;
   wide.places[1] = {1e300, -1e300};
@@ -116,16 +116,16 @@ TEST_F(Regions, AreNoneOfNothingAndBoundedHoweverFarTheyReach) {
 }
 
 TEST_F(Regions, OfASquareAreItsMaskElseItsOutlineElseItsBox) {
-  FrameMaker maker(0);
+  test::FrameMaker maker(0);
   Square square = maker.square(3, {10, 10, 20, 20}).record().layers.squares[0];
   EXPECT_EQ(region_of(square, {}).pixels, 100);
   ConvexHull hull;
   for (const Vec2& corner : {Vec2(10, 10), Vec2(19, 10), Vec2(10, 19)}) hull.add(corner);
   square.outline = hull.outline();
   EXPECT_EQ(region_of(square, {}).pixels, 55);
-  const SquareMasks masks{{3, {cv::Rect(10, 10, 2, 3), {0, 4, 1, 1}}}};
+  const recording::SquareMasks masks{{3, {cv::Rect(10, 10, 2, 3), {0, 4, 1, 1}}}};
   EXPECT_EQ(region_of(square, masks).pixels, 5);
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -9,7 +9,7 @@
 #include "tests/scoring/whole_recordings.h"
 #include "tests/tools/recordings.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 using sim::Label;
@@ -25,22 +25,22 @@ bool is_undefined(const Metrics& metrics, const std::string& name) {
 }
 
 /// Frames 0 to count-1, each made by `fill`.
-Recording frames(int count, const std::function<void(FrameMaker&)>& fill) {
-  std::vector<FrameRecord> made;
+recording::Recording frames(int count, const std::function<void(test::FrameMaker&)>& fill) {
+  std::vector<recording::FrameRecord> made;
   for (int k = 0; k < count; ++k) {
-    FrameMaker frame(k);
+    test::FrameMaker frame(k);
     fill(frame);
     made.push_back(frame);
   }
-  return recording_of(made);
+  return test::recording_of(made);
 }
 
-constexpr PixelBox kBox{100, 100, 140, 150};
+constexpr test::PixelBox kBox{100, 100, 140, 150};
 
 // ---- All metrics
 
 TEST(Scoring, WithoutFramesOnlyCountsAreDefined) {
-  for (const auto& [name, figure] : score(Recording{})) {
+  for (const auto& [name, figure] : score(recording::Recording{})) {
     if (name == "frames" || name.starts_with("truth.")) {
       EXPECT_EQ(figure, 0) << name;
     } else {
@@ -50,23 +50,23 @@ TEST(Scoring, WithoutFramesOnlyCountsAreDefined) {
 }
 
 TEST(Scoring, AskingForAnUnknownMetricThrows) {
-  EXPECT_THROW(value(score(Recording{}), "rebel.f2"), std::out_of_range);
+  EXPECT_THROW(value(score(recording::Recording{}), "rebel.f2"), std::out_of_range);
 }
 
 TEST(Scoring, CornersWithoutVerdictOrTruthAreRefused) {
-  Recording recording =
-      frames(4, [](FrameMaker& frame) { frame.corners(3, Verdict::normal, Label::fixed); });
-  Recording without_verdict = recording;
+  recording::Recording recording =
+      frames(4, [](test::FrameMaker& frame) { frame.corners(3, Verdict::normal, Label::fixed); });
+  recording::Recording without_verdict = recording;
   without_verdict.frames[2].verdicts.pop_back();
   EXPECT_THROW(score(without_verdict), std::invalid_argument);
   EXPECT_THROW(score_frames(without_verdict), std::invalid_argument);
-  Recording without_truth = recording;
+  recording::Recording without_truth = recording;
   without_truth.frames[2].corner_truth.pop_back();
   EXPECT_THROW(score(without_truth), std::invalid_argument);
 }
 
 TEST(Scoring, TheOrderOfCornersObjectsAndSquaresDoesNotMatter) {
-  Recording recording = frames(8, [](FrameMaker& frame) {
+  recording::Recording recording = frames(8, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(k, Verdict::rebel, Label::rebel, 1)
         .corners(4, Verdict::pending, Label::rebel, 1, true)
@@ -82,7 +82,7 @@ TEST(Scoring, TheOrderOfCornersObjectsAndSquaresDoesNotMatter) {
         .rebel_circle({120, 120}, 5);
   });
   const Metrics before = score(recording);
-  for (FrameRecord& frame : recording.frames) {
+  for (recording::FrameRecord& frame : recording.frames) {
     std::reverse(frame.corners_px.begin(), frame.corners_px.end());
     std::reverse(frame.verdicts.begin(), frame.verdicts.end());
     std::reverse(frame.corner_truth.begin(), frame.corner_truth.end());
@@ -96,7 +96,7 @@ TEST(Scoring, TheOrderOfCornersObjectsAndSquaresDoesNotMatter) {
 // ---- Rebel corners
 
 TEST(RebelCorners, APerfectDetectorScoresOne) {
-  const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(10, [](test::FrameMaker& frame) {
     frame.corners(5, Verdict::rebel, Label::rebel, 1)
         .corners(3, Verdict::rebel, Label::rebel, 1, true)
         .corners(20, Verdict::normal, Label::fixed)
@@ -116,7 +116,7 @@ TEST(RebelCorners, APerfectDetectorScoresOne) {
 
 TEST(RebelCorners, ADetectorThatCallsEverythingRebelHasThePrecisionOfChance) {
   // After 3 frames of warm-up 7 remain: 7 * 5 rebels among 7 * (5 + 15).
-  const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(10, [](test::FrameMaker& frame) {
     frame.corners(5, Verdict::rebel, Label::rebel, 1).corners(15, Verdict::rebel, Label::fixed);
   }));
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.precision"), 0.25);
@@ -129,7 +129,7 @@ TEST(RebelCorners, ADetectorThatCallsEverythingRebelHasThePrecisionOfChance) {
 
 TEST(RebelCorners, TheWarmUpIsLeftOut) {
   // All verdicts wrong before frame 3, correct from then on.
-  const Metrics metrics = score(frames(6, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(6, [](test::FrameMaker& frame) {
     const bool warm = frame.record().index >= 3;
     frame.corners(4, warm ? Verdict::rebel : Verdict::normal, Label::rebel, 1)
         .corners(4, warm ? Verdict::normal : Verdict::rebel, Label::fixed);
@@ -139,13 +139,13 @@ TEST(RebelCorners, TheWarmUpIsLeftOut) {
 }
 
 TEST(RebelCorners, IndistinctOnesAndNoLandmarksAreLeftOutWhateverIsSaidOfThem) {
-  const auto common = [](FrameMaker& frame) {
+  const auto common = [](test::FrameMaker& frame) {
     frame.corners(3, Verdict::rebel, Label::rebel, 1)
         .corners(1, Verdict::normal, Label::rebel, 1)
         .corners(1, Verdict::rebel, Label::fixed);
   };
   const Metrics without = score(frames(6, common));
-  const Metrics with = score(frames(6, [&](FrameMaker& frame) {
+  const Metrics with = score(frames(6, [&](test::FrameMaker& frame) {
     common(frame);
     for (const Verdict verdict : {Verdict::rebel, Verdict::normal}) {
       frame.corners(9, verdict, Label::indistinct, 1).corners(9, verdict, Label::none, -1);
@@ -159,7 +159,7 @@ TEST(RebelCorners, IndistinctOnesAndNoLandmarksAreLeftOutWhateverIsSaidOfThem) {
 }
 
 TEST(RebelCorners, PendingAndIgnoredOnesCountAsMissed) {
-  const Metrics metrics = score(frames(4, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(4, [](test::FrameMaker& frame) {
     frame.corners(1, Verdict::rebel, Label::rebel, 1)
         .corners(1, Verdict::pending, Label::rebel, 1)
         .corners(1, Verdict::ignored, Label::rebel, 1)
@@ -171,7 +171,7 @@ TEST(RebelCorners, PendingAndIgnoredOnesCountAsMissed) {
 
 TEST(RebelCorners, RecallBeginsThreeFramesAfterAnObjectsFirstRebelAndPrecisionAtOnce) {
   // The object starts at frame 5: 5 to 7 are excused, 8 and 9 are not.
-  const Recording recording = frames(10, [](FrameMaker& frame) {
+  const recording::Recording recording = frames(10, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     const Label label = k >= 5 ? Label::rebel : Label::fixed;
     frame.corner(k == 6 || k == 9 ? Verdict::rebel : Verdict::pending, label, 1);
@@ -191,7 +191,7 @@ TEST(RebelCorners, RecallBeginsThreeFramesAfterAnObjectsFirstRebelAndPrecisionAt
 
 TEST(RebelCorners, EachObjectHasItsOwnFirstFrame) {
   // Object 1 is distinct from the start; object 2 from frame 6 on and never excused by object 1.
-  const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(10, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corner(Verdict::rebel, Label::rebel, 1);
     if (k >= 6) frame.corner(Verdict::normal, Label::rebel, 2);
@@ -201,7 +201,7 @@ TEST(RebelCorners, EachObjectHasItsOwnFirstFrame) {
 }
 
 TEST(RebelCorners, RadialOnesAreInTheOverallFiguresAndNotInTheDistinctOnes) {
-  const Metrics metrics = score(frames(4, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(4, [](test::FrameMaker& frame) {
     frame.corners(3, Verdict::rebel, Label::rebel, 1)
         .corners(1, Verdict::normal, Label::rebel, 1)
         .corners(1, Verdict::rebel, Label::rebel, 1, true)
@@ -218,7 +218,7 @@ TEST(RebelCorners, RadialOnesAreInTheOverallFiguresAndNotInTheDistinctOnes) {
 }
 
 TEST(RebelCorners, FixedOnesAtOutlinesAreLeftOutOfTheClearFiguresAlone) {
-  const Metrics metrics = score(frames(4, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(4, [](test::FrameMaker& frame) {
     frame.corners(3, Verdict::rebel, Label::rebel, 1)
         .corners(1, Verdict::normal, Label::rebel, 1)
         .corners(3, Verdict::rebel, Label::fixed)
@@ -238,7 +238,7 @@ TEST(RebelCorners, FixedOnesAtOutlinesAreLeftOutOfTheClearFiguresAlone) {
 TEST(RebelCorners, EachKindOfErrorCostsWhatRightVerdictsOnItWouldGain) {
   // Half of 8 rebels are found; 3 calls are false: precision 4/7, recall 4/8, F1 8/15.
   const auto maker = [](bool with_reasons) {
-    return [=](FrameMaker& frame) {
+    return [=](test::FrameMaker& frame) {
       frame.corners(4, Verdict::rebel, Label::rebel, 1)
           .corners(2, Verdict::normal, Label::rebel, 1, true)
           .corners(1, Verdict::pending, Label::rebel, 1)
@@ -268,7 +268,7 @@ TEST(RebelCorners, EachKindOfErrorCostsWhatRightVerdictsOnItWouldGain) {
 }
 
 TEST(RebelCorners, WithoutRebelsInTheTruthRecallIsUndefinedAndFalseOnesStillShow) {
-  const Metrics metrics = score(frames(8, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(8, [](test::FrameMaker& frame) {
     frame.corners(2, Verdict::rebel, Label::fixed).corners(8, Verdict::normal, Label::fixed);
   }));
   EXPECT_TRUE(is_undefined(metrics, "rebel.recall"));
@@ -281,15 +281,15 @@ TEST(RebelCorners, WithoutRebelsInTheTruthRecallIsUndefinedAndFalseOnesStillShow
 }
 
 TEST(RebelCorners, ADetectorThatSaysNothingHasAPrecisionAndAnF1OfZero) {
-  const Metrics metrics = score(
-      frames(8, [](FrameMaker& frame) { frame.corners(5, Verdict::normal, Label::rebel, 1); }));
+  const Metrics metrics = score(frames(
+      8, [](test::FrameMaker& frame) { frame.corners(5, Verdict::normal, Label::rebel, 1); }));
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.precision"), 0);
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.recall"), 0);
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1"), 0);
 }
 
 TEST(RebelCorners, TheCountsOfFramesAddUpToTheFiguresOfTheRun) {
-  const Recording recording = frames(20, [](FrameMaker& frame) {
+  const recording::Recording recording = frames(20, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(k % 4, Verdict::rebel, Label::rebel, 1)
         .corners(k % 3, Verdict::normal, Label::rebel, 1)
@@ -307,7 +307,7 @@ TEST(RebelCorners, TheCountsOfFramesAddUpToTheFiguresOfTheRun) {
 
 TEST(RebelObjects, AnObjectIsFoundByThreeRebelsAndLatencyCountsFromItsFirstFrame) {
   // Distinct from frame 4; two rebels on it at 5 and 6 are too few, three at 7 suffice.
-  const Metrics metrics = score(frames(12, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(12, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     const Label label = k >= 4 ? Label::rebel : Label::fixed;
     const int rebels = k < 5 ? 0 : k < 7 ? 2 : 3;
@@ -319,15 +319,15 @@ TEST(RebelObjects, AnObjectIsFoundByThreeRebelsAndLatencyCountsFromItsFirstFrame
 }
 
 TEST(RebelObjects, TheFloorOfLatencyIsReachedByAnObjectDistinctFromTheFirstFrame) {
-  const Metrics metrics = score(frames(6, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(6, [](test::FrameMaker& frame) {
     const Verdict verdict = frame.record().index >= 2 ? Verdict::rebel : Verdict::pending;
     frame.corners(3, verdict, Label::rebel, 1);
   }));
-  EXPECT_DOUBLE_EQ(get(metrics, "rebel.latency_frames_median"), kSightings - 1);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.latency_frames_median"), recording::kSightings - 1);
 }
 
 TEST(RebelObjects, RebelsOnAnObjectBeforeItMovesDoNotFindIt) {
-  const Metrics metrics = score(frames(12, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(12, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(5, k < 6 ? Verdict::rebel : Verdict::normal, k < 6 ? Label::fixed : Label::rebel,
                   1);
@@ -338,7 +338,7 @@ TEST(RebelObjects, RebelsOnAnObjectBeforeItMovesDoNotFindIt) {
 
 TEST(RebelObjects, AnObjectThatIsDistinctTooBrieflyToBeFoundIsLeftOut) {
   const auto distinct_for = [](int length) {
-    return score(frames(12, [=](FrameMaker& frame) {
+    return score(frames(12, [=](test::FrameMaker& frame) {
       const int k = frame.record().index;
       const bool distinct = k >= 5 && k < 5 + length;
       frame.corners(5, Verdict::normal, distinct ? Label::rebel : Label::indistinct, 1);
@@ -349,7 +349,7 @@ TEST(RebelObjects, AnObjectThatIsDistinctTooBrieflyToBeFoundIsLeftOut) {
 }
 
 TEST(RebelObjects, LatencyIsTheMedianOfThoseFound) {
-  const Metrics metrics = score(frames(20, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(20, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     const auto seen_from = [&](int object, int first) {
       frame.corners(3, k >= first ? Verdict::rebel : Verdict::pending, Label::rebel, object);
@@ -366,7 +366,7 @@ TEST(RebelObjects, LatencyIsTheMedianOfThoseFound) {
 TEST(RebelObjects, ACircleIsFalseUnlessAMovingCornerIsInItOrItsCentreInAMoversBox) {
   const auto false_objects = [](Vec2 centre, double radius, bool moving) {
     return get(score(frames(7,
-                            [&](FrameMaker& frame) {
+                            [&](test::FrameMaker& frame) {
                               frame.object(1, kBox, moving)
                                   .corner(Verdict::normal, Label::indistinct, 1, false, {138, 148})
                                   .corner(Verdict::normal, Label::fixed, 0, false, {200, 148})
@@ -384,9 +384,9 @@ TEST(RebelObjects, ACircleIsFalseUnlessAMovingCornerIsInItOrItsCentreInAMoversBo
 TEST(RebelObjects, CircleRecallIsTheShareOfMoversSeenWithACirclesCentreInTheirBox) {
   // Detected or not in frames 3 to 7; all are detected before.
   const auto recall = [](int corners, bool moving,
-                         const std::function<void(FrameMaker&)>& circles) {
+                         const std::function<void(test::FrameMaker&)>& circles) {
     return value(score(frames(8,
-                              [&](FrameMaker& frame) {
+                              [&](test::FrameMaker& frame) {
                                 frame.object(1, kBox, moving)
                                     .corners(corners, Verdict::rebel, Label::rebel, 1)
                                     .corners(9, Verdict::rebel, Label::rebel, 2)
@@ -396,7 +396,7 @@ TEST(RebelObjects, CircleRecallIsTheShareOfMoversSeenWithACirclesCentreInTheirBo
                  "rebel.circle_recall");
   };
   const auto from = [](int first, Vec2 centre) {
-    return [=](FrameMaker& frame) {
+    return [=](test::FrameMaker& frame) {
       if (frame.record().index >= first) frame.rebel_circle(centre, 5).rebel_circle(centre, 5);
     };
   };
@@ -408,7 +408,7 @@ TEST(RebelObjects, CircleRecallIsTheShareOfMoversSeenWithACirclesCentreInTheirBo
 }
 
 TEST(RebelObjects, FalseCirclesAreCountedPerHundredFramesAfterTheWarmUp) {
-  const Metrics metrics = score(frames(8, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(8, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     if (k < 3 || k == 4) frame.rebel_circle({50, 50}, 5).rebel_circle({60, 60}, 5);
   }));
@@ -418,13 +418,13 @@ TEST(RebelObjects, FalseCirclesAreCountedPerHundredFramesAfterTheWarmUp) {
 // ---- Squares
 
 /// Score of four frames, of which only the last counts.
-Metrics score_one(const std::function<void(FrameMaker&)>& fill) {
+Metrics score_one(const std::function<void(test::FrameMaker&)>& fill) {
   return score(frames(4, fill));
 }
 
 TEST(Squares, IntersectionOverUnionIsTakenInPixelEdges) {
   // A box of 40 x 50 pixels, and a square shifted by 8 columns: (32 * 50) / (48 * 50).
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
         .square(1, {108, 100, 148, 150});
@@ -439,7 +439,7 @@ TEST(Squares, IntersectionOverUnionIsTakenInPixelEdges) {
 
 TEST(Squares, ThresholdsAreInclusive) {
   // Exactly half of the box.
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
         .square(1, {100, 100, 120, 150});
@@ -449,7 +449,7 @@ TEST(Squares, ThresholdsAreInclusive) {
 }
 
 TEST(Squares, MeanIouIsOfPairsMatchedAtOneHalf) {
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 1)
         .corners(4, Verdict::normal, Label::fixed, 2)
         .object(1, kBox, false)
@@ -464,7 +464,7 @@ TEST(Squares, MeanIouIsOfPairsMatchedAtOneHalf) {
 
 struct Eligibility {
   const char* what;
-  PixelBox box;
+  test::PixelBox box;
   int corners;
   double visible_fraction;
   bool eligible;
@@ -474,7 +474,7 @@ class SquareEligibility : public testing::TestWithParam<Eligibility> {};
 
 TEST_P(SquareEligibility, DecidesWhetherABoxCounts) {
   const Eligibility& given = GetParam();
-  const Metrics metrics = score_one([&](FrameMaker& frame) {
+  const Metrics metrics = score_one([&](test::FrameMaker& frame) {
     frame.corners(given.corners, Verdict::normal, Label::fixed, 2)
         .object(2, given.box, false, given.visible_fraction);
   });
@@ -496,7 +496,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(Squares, ASquareOnAnObjectThatIsNotEligibleIsNeitherRightNorWrong) {
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
         .object(1, {300, 100, 340, 150}, true, 0.2)  // mostly occluded
@@ -509,7 +509,7 @@ TEST(Squares, ASquareOnAnObjectThatIsNotEligibleIsNeitherRightNorWrong) {
 
 TEST(Squares, ASquareFarFromTheObjectThatIsNotEligibleIsWrong) {
   // An IoU of 24 / 56: at 0.3 it matches the occluded object, at 0.5 nothing.
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
         .object(1, {300, 100, 340, 150}, true, 0.2)
@@ -521,7 +521,7 @@ TEST(Squares, ASquareFarFromTheObjectThatIsNotEligibleIsWrong) {
 }
 
 TEST(Squares, ASecondSquareOnOneObjectIsWrong) {
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
         .square(1, kBox)
@@ -535,7 +535,7 @@ TEST(Squares, ASecondSquareOnOneObjectIsWrong) {
 TEST(Squares, MatchingIsGreedyByIou) {
   // The square lies on object 2 (IoU 1) and also overlaps object 1; greedy matching takes the best
   // pair first and leaves object 1 unmatched.
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 1)
         .corners(4, Verdict::normal, Label::fixed, 2)
         .object(1, {104, 100, 144, 150}, false)
@@ -547,7 +547,7 @@ TEST(Squares, MatchingIsGreedyByIou) {
 }
 
 TEST(Squares, WithoutSquaresRecallIsZeroAndPrecisionUndefined) {
-  const Metrics metrics = score_one([](FrameMaker& frame) {
+  const Metrics metrics = score_one([](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2).object(2, kBox, false);
   });
   EXPECT_DOUBLE_EQ(get(metrics, "square.recall_50"), 0);
@@ -556,7 +556,7 @@ TEST(Squares, WithoutSquaresRecallIsZeroAndPrecisionUndefined) {
 }
 
 TEST(Squares, WithoutObjectsEverySquareIsWrongAndRecallUndefined) {
-  const Metrics metrics = score_one([](FrameMaker& frame) { frame.square(1, kBox); });
+  const Metrics metrics = score_one([](test::FrameMaker& frame) { frame.square(1, kBox); });
   EXPECT_TRUE(is_undefined(metrics, "square.recall_50"));
   EXPECT_TRUE(is_undefined(metrics, "square.identity_switches"));
   EXPECT_DOUBLE_EQ(get(metrics, "square.precision_50"), 0);
@@ -564,7 +564,7 @@ TEST(Squares, WithoutObjectsEverySquareIsWrongAndRecallUndefined) {
 
 TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
   // Object 1 moves only in frame 0, but counts as a mover for the whole run.
-  const Metrics metrics = score(frames(5, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(5, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(4, Verdict::normal, Label::fixed, 1)
         .corners(4, Verdict::normal, Label::fixed, 2)
@@ -582,12 +582,12 @@ TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
 /// Two truths that fill their boxes. One square covers its truth except a corner; the other, whose
 /// box is as good, covers less than half.
 TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
-  const auto outlined = [](FrameMaker& frame, std::initializer_list<Vec2> vertices) {
+  const auto outlined = [](test::FrameMaker& frame, std::initializer_list<Vec2> vertices) {
     Outline& outline = frame.record().layers.squares.back().outline;
     outline.count = static_cast<int>(vertices.size());
     std::copy(vertices.begin(), vertices.end(), outline.places.begin());
   };
-  const auto fill = [&](FrameMaker& frame) {
+  const auto fill = [&](test::FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 1)
         .corners(4, Verdict::normal, Label::fixed, 2)
         .object(1, {100, 100, 140, 140}, true)
@@ -610,13 +610,13 @@ TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
   EXPECT_DOUBLE_EQ(get(metrics, "square.mask_recall_50"), 0.5);
   EXPECT_DOUBLE_EQ(get(metrics, "square.mask_precision_50"), 0.5);
   // A detector's own mask has priority; an unknown truth of one object makes the figure undefined.
-  const Metrics by_mask = score_one([&](FrameMaker& frame) {
+  const Metrics by_mask = score_one([&](test::FrameMaker& frame) {
     fill(frame);
     frame.record().masks[2] = {cv::Rect(300, 100, 40, 40), {0, 1200, 400}};
   });
   EXPECT_DOUBLE_EQ(get(by_mask, "square.mask_mean_iou_static"), 0.75);
   EXPECT_DOUBLE_EQ(get(by_mask, "square.mask_recall_50"), 1);
-  const Metrics unknown = score_one([&](FrameMaker& frame) {
+  const Metrics unknown = score_one([&](test::FrameMaker& frame) {
     fill(frame);
     frame.record().object_truth[1].mask.clear();
   });
@@ -630,7 +630,7 @@ TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
 TEST(Squares, AnIdentitySwitchIsAnotherSquareOnTheSameObjectAlsoAfterAGap) {
   // Ids on object 2: 1 1 - 1 5 5 - 8 from frame 3 on.
   const std::vector<int> ids{1, 1, 0, 1, 5, 5, 0, 8};
-  const Metrics metrics = score(frames(11, [&](FrameMaker& frame) {
+  const Metrics metrics = score(frames(11, [&](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(4, Verdict::normal, Label::fixed, 2).object(2, kBox, false);
     const int id = k < 3 ? 99 : ids[static_cast<std::size_t>(k - 3)];
@@ -643,7 +643,7 @@ TEST(Squares, AnIdentitySwitchIsAnotherSquareOnTheSameObjectAlsoAfterAGap) {
 
 TEST(Dimensions, AreCountedBesideStoresOfCorners) {
   // 1, 2, .. 10 corners; each frame has one square more than the one before.
-  const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(10, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(k + 1, Verdict::normal, Label::fixed);
     for (int i = 0; i <= k; ++i) frame.square(static_cast<Id>(i), kBox);
@@ -665,7 +665,7 @@ TEST(Dimensions, AreCountedBesideStoresOfCorners) {
 
 TEST(Edges, AreRematchedWhereTheSameOneHasACornerInTheNextFrame) {
   // Ids 1 2 3 in every frame; 3 never has a corner, and 2 has none in the last frame.
-  const Metrics metrics = score(frames(3, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(3, [](test::FrameMaker& frame) {
     const int k = frame.record().index;
     for (const Id id : {1u, 2u, 3u}) {
       Edge edge;
@@ -678,8 +678,8 @@ TEST(Edges, AreRematchedWhereTheSameOneHasACornerInTheNextFrame) {
 }
 
 TEST(EgoMotionError, IsTheAngleAndSpeedBetweenWhatWasToldAndWhatWasTrue) {
-  const Metrics metrics = score(frames(5, [](FrameMaker& frame) {
-    FrameRecord& record = frame.record();
+  const Metrics metrics = score(frames(5, [](test::FrameMaker& frame) {
+    recording::FrameRecord& record = frame.record();
     record.motion.dt_s = record.true_motion.dt_s = record.index > 0 ? 0.1 : 0;
     record.true_motion.R_cur_prev = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).matrix();
     record.motion.R_cur_prev = Eigen::AngleAxisd(0.203, Eigen::Vector3d::UnitY()).matrix();
@@ -691,9 +691,9 @@ TEST(EgoMotionError, IsTheAngleAndSpeedBetweenWhatWasToldAndWhatWasTrue) {
 }
 
 TEST(Times, AreQuantilesOverFramesAndRatiosToFastOnTheSameFrame) {
-  const Metrics metrics = score(frames(3, [](FrameMaker& frame) {
+  const Metrics metrics = score(frames(3, [](test::FrameMaker& frame) {
     const double k = frame.record().index;
-    FrameTimes times;
+    recording::FrameTimes times;
     times.detect_ms = 1 + k;        // 1, 2, 3
     times.describe_ms = 2 * k;      // 0, 2, 4
     times.line_ms = 4 - k;          // 4, 3, 2: ratios 4, 1.5, 0.67
@@ -711,8 +711,8 @@ TEST(Times, AreQuantilesOverFramesAndRatiosToFastOnTheSameFrame) {
 }
 
 TEST(Times, OfARecordingWithoutThemAreUndefined) {
-  const Metrics metrics =
-      score(frames(5, [](FrameMaker& frame) { frame.corners(3, Verdict::normal, Label::fixed); }));
+  const Metrics metrics = score(
+      frames(5, [](test::FrameMaker& frame) { frame.corners(3, Verdict::normal, Label::fixed); }));
   for (const auto& [name, figure] : metrics) {
     if (name.starts_with("time.") || name.starts_with("sim.")) {
       EXPECT_FALSE(figure) << name;
@@ -721,4 +721,4 @@ TEST(Times, OfARecordingWithoutThemAreUndefined) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

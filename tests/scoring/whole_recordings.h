@@ -10,64 +10,70 @@
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/score_rebels.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
-inline std::vector<Warned> warnings_of(const Recording& recording) {
-  WarningWatch watch(recording.truth);
-  for (const FrameRecord& frame : recording.frames) watch.add(frame);
+inline std::vector<recording::Warned> warnings_of(const recording::Recording& recording) {
+  recording::WarningWatch watch(recording.truth);
+  for (const recording::FrameRecord& frame : recording.frames) watch.add(frame);
   return watch.warned(recording.warnings);
 }
 
-inline std::vector<RebelCounts> score_frames(const Recording& recording) {
+inline std::vector<RebelCounts> score_frames(const recording::Recording& recording) {
   Scorer scorer(recording);
   std::vector<RebelCounts> counts;
-  for (const FrameRecord& frame : recording.frames) counts.push_back(scorer.add(frame).rebels);
+  for (const recording::FrameRecord& frame : recording.frames)
+    counts.push_back(scorer.add(frame).rebels);
   return counts;
 }
 
-inline std::vector<Event> all_events(const Recording& recording) {
+inline std::vector<ScoredEvent> all_events(const recording::Recording& recording) {
   Scorer scorer(recording);
   EventFinder finder(recording);
-  for (const FrameRecord& frame : recording.frames) {
+  for (const recording::FrameRecord& frame : recording.frames) {
     finder.add(frame, scorer.add(frame).outcomes);
   }
   return finder.events(scorer.detections());
 }
 
 /// Events of rebels and circles. \param most of each family.
-inline std::vector<Event> find_events(const Recording& recording, std::size_t most = kMostEvents) {
-  std::vector<Event> events = all_events(recording);
-  std::erase_if(events,
-                [](const Event& event) { return family_of(event.kind) == EventFamily::squares; });
+inline std::vector<ScoredEvent> find_events(const recording::Recording& recording,
+                                            std::size_t most = kMostEvents) {
+  std::vector<ScoredEvent> events = all_events(recording);
+  std::erase_if(events, [](const ScoredEvent& event) {
+    return family_of(event.kind) == EventFamily::squares;
+  });
   keep_worst(events, most);
   return events;
 }
 
-inline std::vector<Event> find_square_events(const Recording& recording) {
-  std::vector<Event> events = all_events(recording);
-  std::erase_if(events,
-                [](const Event& event) { return family_of(event.kind) != EventFamily::squares; });
+inline std::vector<ScoredEvent> find_square_events(const recording::Recording& recording) {
+  std::vector<ScoredEvent> events = all_events(recording);
+  std::erase_if(events, [](const ScoredEvent& event) {
+    return family_of(event.kind) != EventFamily::squares;
+  });
   keep_worst(events, kMostEvents);
   return events;
 }
 
-inline void write_frames(const std::filesystem::path& path, const Recording& recording) {
+inline void write_frames(const std::filesystem::path& path, const recording::Recording& recording) {
   FramesWriter writer(path, recording);
   Scorer scorer(recording);
-  for (const FrameRecord& frame : recording.frames) writer.write(frame, scorer.add(frame).rebels);
+  for (const recording::FrameRecord& frame : recording.frames)
+    writer.write(frame, scorer.add(frame).rebels);
   writer.close();
 }
 
-inline void write_detections(const std::filesystem::path& csv, const Recording& recording) {
-  DetectionsWriter writer(csv, recording);
-  for (const FrameRecord& frame : recording.frames) writer.write(frame);
+inline void write_detections(const std::filesystem::path& csv,
+                             const recording::Recording& recording) {
+  recording::DetectionsWriter writer(csv, recording);
+  for (const recording::FrameRecord& frame : recording.frames) writer.write(frame);
   writer.close();
 }
 
-inline void read_times(const std::filesystem::path& path, Recording& recording) {
+inline void read_times(const std::filesystem::path& path, recording::Recording& recording) {
   TimesReader times(path);
-  for (FrameRecord& frame : recording.frames) times.read(frame);
+  for (recording::FrameRecord& frame : recording.frames) times.read(frame);
   times.finish();
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -66,7 +66,7 @@ cv::Mat3b drawn_by_default(const scenario::Scenario& scenario, int frame) {
   world.advance_to(sim::event_time_ns(frame, scenario.camera.rate_hz), imu, odometry);
   world.model().m().opt.disableflags &= ~mjDSBL_SENSOR;  // MuJoCo draws the rays from the readings
   mj_forward(&world.model().m(), &world.model().d());
-  bench::RawRenderer renderer(world, {scenario.camera.width_px, scenario.camera.height_px}, {});
+  test::RawRenderer renderer(world, {scenario.camera.width_px, scenario.camera.height_px}, {});
   renderer.render();
   return renderer.picture();
 }

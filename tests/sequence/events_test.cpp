@@ -19,8 +19,8 @@ namespace lcs::sequence {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::run_lcs;
+using test::CommandResult;
+using test::run_lcs;
 
 constexpr const char* kWorld = R"(scene: lab
 frames: 4
@@ -31,7 +31,7 @@ events: {}
 
 class Events : public testing::Test {
  protected:
-  Events() { bench::write(file(), kWorld); }
+  Events() { test::write(file(), kWorld); }
   fs::path file() const { return home_.path() / "drive.yaml"; }
   fs::path folder() const { return home_.path() / "out"; }
   CommandResult generate(const std::string& formats) const {
@@ -45,7 +45,7 @@ class Events : public testing::Test {
       all.insert(all.end(), o->events.begin(), o->events.end());
     return all;
   }
-  bench::TemporaryFolder home_;
+  test::TemporaryFolder home_;
 };
 
 TEST_F(Events, AreReadBackFromRpgsText) {
@@ -72,7 +72,7 @@ TEST_F(Events, AreReadBackFromRpgsText) {
     EXPECT_EQ(cv::imread((rpg / name).string()).size(), cv::Size(320, 240)) << name;
   }
   EXPECT_EQ(pictures, 4);
-  std::istringstream calibration(bench::read(rpg / "calib.txt"));
+  std::istringstream calibration(test::read(rpg / "calib.txt"));
   std::vector<double> numbers;
   for (double number = 0; calibration >> number;) numbers.push_back(number);
   ASSERT_EQ(numbers.size(), 9U);
@@ -86,7 +86,7 @@ TEST_F(Events, AreReadBackFromDsecsHdf5) {
   const CommandResult made = generate("dsec,events");
   if (made.err.find("needs h5py") != std::string::npos) GTEST_SKIP() << made.err;
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  bench::write(home_.path() / "read.py", R"(
+  test::write(home_.path() / "read.py", R"(
 import sys
 import h5py, numpy as np
 with h5py.File(sys.argv[1] + "/dsec/events.h5") as file:
@@ -108,11 +108,11 @@ for ms, first in enumerate(firsts):
 }
 
 TEST_F(Events, TakeNoLongerThanDsecsTimesOf32Bits) {
-  bench::write(file(), std::string(kWorld) + "duration: 5000 s\n");
-  std::string text = bench::read(file());
+  test::write(file(), std::string(kWorld) + "duration: 5000 s\n");
+  std::string text = test::read(file());
   text.replace(text.find("frames: 4\n"), 10, "");
   text.replace(text.find("camera: {"), 9, "camera: {rate: 1 Hz, ");
-  bench::write(file(), text);
+  test::write(file(), text);
   const CommandResult made = generate("dsec");
   if (made.err.find("needs h5py") != std::string::npos) GTEST_SKIP() << made.err;
   EXPECT_EQ(made.exit_code, 2);
@@ -133,7 +133,7 @@ TEST_F(Events, AreReplayedAsCorners) {
                                          {home_.path()});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::vector<std::vector<Eigen::Vector2f>> corners;
-    for (const bench::FrameRecord& frame : bench::read_recording(out).frames) {
+    for (const recording::FrameRecord& frame : recording::read_recording(out).frames) {
       corners.push_back(frame.corners_px);
     }
     return corners;
@@ -165,7 +165,7 @@ TEST_F(Events, ComeWithTheMotionOfTruthOrImu) {
     const CommandResult result = run_lcs(words, {home_.path()});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::vector<EgoMotion> motions;
-    for (const bench::FrameRecord& frame : bench::read_recording(out).frames) {
+    for (const recording::FrameRecord& frame : recording::read_recording(out).frames) {
       motions.push_back(frame.motion);
     }
     return motions;
@@ -186,9 +186,9 @@ TEST_F(Events, ComeWithTheMotionOfTruthOrImu) {
 TEST_F(Events, OfOtherPicturesAndInDisorderAreRefusedWithTheirPlace) {
   ASSERT_EQ(generate("events").exit_code, 0);
   const fs::path file = folder() / "rpg/events.txt";
-  const std::string whole = bench::read(file);
+  const std::string whole = test::read(file);
   const auto refusal = [&](const std::string& events) {
-    bench::write(file, events);
+    test::write(file, events);
     const CommandResult result = run_lcs({"replay", folder() / "rpg", "--corners", "events",
                                           "--out", home_.path() / "none", "--quiet"},
                                          {home_.path()});

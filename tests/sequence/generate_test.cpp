@@ -29,7 +29,6 @@
 #include "tools/files/csv.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/manifest.h"
-#include "tools/sequence/text_file.h"
 #include "tools/sequence/true_flow.h"
 #include "tools/sequence/writer.h"
 
@@ -37,9 +36,9 @@ namespace lcs::sequence {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::bytes_in;
-using bench::CommandResult;
-using bench::run_lcs;
+using test::bytes_in;
+using test::CommandResult;
+using test::run_lcs;
 
 const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
 constexpr int kFrames = 4;
@@ -65,7 +64,7 @@ std::vector<std::string> arguments(std::vector<std::string> more) {
 class Generated : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    home_ = std::make_unique<bench::TemporaryFolder>();
+    home_ = std::make_unique<test::TemporaryFolder>();
     result_ = run_lcs(arguments({"--out", folder()}), {.folder = home_->path()});
     scenario_ = scenario::load(kCrossing, {.sets = kSets, .seed = {}});
     sim::Simulation simulation(scenario_);
@@ -80,7 +79,7 @@ class Generated : public testing::Test {
   static fs::path folder() { return home_->path() / "crossing"; }
   void SetUp() override { ASSERT_EQ(result_.exit_code, 0) << result_.err; }
 
-  inline static std::unique_ptr<bench::TemporaryFolder> home_;
+  inline static std::unique_ptr<test::TemporaryFolder> home_;
   inline static CommandResult result_;
   inline static scenario::Scenario scenario_;
   inline static sim::Pinhole camera_;
@@ -123,7 +122,7 @@ TEST_F(Generated, PicturesAreThoseOfTheSimulationToTheLastBit) {
 }
 
 TEST_F(Generated, ReadingsAndPosesAreThoseOfTheSimulationToTheLastBit) {
-  const auto number = [](const std::string& text) { return *bench::number_in<double>(text); };
+  const auto number = [](const std::string& text) { return *files::number_in<double>(text); };
   const auto imu = rows_of(folder() / "mav0/imu0/data.csv");
   const auto truth = rows_of(folder() / "mav0/state_groundtruth_estimate0/data.csv");
   std::size_t row = 0;
@@ -217,14 +216,14 @@ TEST_F(Generated, LandmarksAreTheCornersAndTheTruthOfARun) {
                                home_->path() / "run"};
   for (const std::string& set : kSets) run.insert(run.end(), {"--set", set});
   ASSERT_EQ(run_lcs(run, {.folder = home_->path()}).exit_code, 0);
-  const bench::Recording recording = bench::read_recording(home_->path() / "run");
+  const recording::Recording recording = recording::read_recording(home_->path() / "run");
   const auto rows = rows_of(folder() / "landmarks.csv");
   std::size_t row = 1;  // after the header
   const auto equal = [](const std::string& text, double value) {
-    return std::isfinite(value) ? bench::number_in<double>(text) == value : text.empty();
+    return std::isfinite(value) ? files::number_in<double>(text) == value : text.empty();
   };
   std::set<std::string> labels;
-  for (const bench::FrameRecord& frame : recording.frames) {
+  for (const recording::FrameRecord& frame : recording.frames) {
     for (std::size_t i = 0; i < frame.corners_px.size(); ++i, ++row) {
       ASSERT_LT(row, rows.size());
       const auto& fields = rows[row];
@@ -286,7 +285,7 @@ TEST_F(Generated, BoxesOfMotChallengeAreThoseOfTheTruthCountedFromOne) {
                                               object.moving ? "1" : "0"};
       EXPECT_EQ(std::vector(fields.begin(), fields.begin() + 7), expected);
       if (object.moving) moving.insert(fields[7]);
-      EXPECT_EQ(bench::number_in<double>(fields[8]), object.visible_fraction);
+      EXPECT_EQ(files::number_in<double>(fields[8]), object.visible_fraction);
     }
   }
   EXPECT_EQ(row, rows.size());
@@ -366,7 +365,7 @@ class Generate : public testing::Test {
   fs::path folder() const { return home_.path() / "sequence"; }
   /// Where the frames are until all are finished.
   fs::path unfinished() const { return home_.path() / "sequence.unfinished"; }
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
 };
 
 TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
@@ -420,7 +419,7 @@ TEST_F(Generate, EglGivesTheSameBytesAsOsmesa) {
 
 TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {
   fs::create_directory(folder());
-  bench::write(folder() / "thesis.tex", "years of work");
+  test::write(folder() / "thesis.tex", "years of work");
   const CommandResult result = generate({"--out", folder()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("thesis.tex is not a file that lcs has written"), std::string::npos)
@@ -467,7 +466,7 @@ TEST_F(Generate, APlanThatCannotBeReadIsRefusedWithItsPlace) {
   ASSERT_EQ(generate({"--out", folder(), "--shard", "1/2", "--quiet"}).exit_code, 0);
   const fs::path file = unfinished() / "work" / "plan.json";
   for (const auto& [plan, expected] : plans) {
-    bench::write(file, plan);
+    test::write(file, plan);
     const CommandResult result = generate({"--out", folder()});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.err.find(file.string() + expected), std::string::npos) << result.err;
@@ -478,7 +477,7 @@ TEST_F(Generate, APlanThatCannotBeReadIsRefusedWithItsPlace) {
 
 TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
-  bench::write(folder() / "depth/000001.png", "not what it was");
+  test::write(folder() / "depth/000001.png", "not what it was");
   fs::remove(folder() / "depth/000002.png");
   const CommandResult result = generate({"--out", folder(), "--formats", "depth"});
   EXPECT_EQ(result.exit_code, 2);
@@ -486,7 +485,7 @@ TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
 }
 
 TEST_F(Generate, ABagWithoutRosbagsIsRefusedWithItsInstallation) {
-  bench::write(home_.path() / "python" / "rosbags.py", "raise ImportError\n");
+  test::write(home_.path() / "python" / "rosbags.py", "raise ImportError\n");
   ASSERT_EQ(::setenv("PYTHONPATH", (home_.path() / "python").c_str(), 1), 0);
   const CommandResult result = generate({"--out", folder(), "--formats", "mcap"});
   ::unsetenv("PYTHONPATH");
@@ -616,7 +615,7 @@ TEST_F(Generate, FormatsThatAreAddedMakeTheSequenceOfAllOfThem) {
     EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
   }
   EXPECT_TRUE(bytes_in(folder()) == bytes_in(whole));
-  bench::write(folder() / "depth/000001.png", "not as it was");
+  test::write(folder() / "depth/000001.png", "not as it was");
   const CommandResult damaged = generate({"--out", folder(), "--formats", "kalibr", "--add"});
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_NE(damaged.err.find("000001.png was changed since"), std::string::npos) << damaged.err;
@@ -625,8 +624,8 @@ TEST_F(Generate, FormatsThatAreAddedMakeTheSequenceOfAllOfThem) {
 TEST_F(Generate, AFormatThatIsNotAddedToItsEndIsAddedByTheSameCommand) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
   const std::vector<std::string> add{"--out", folder(), "--formats", "flow", "--add", "--quiet"};
-  bench::Command command(arguments(add), {.folder = home_.path()});
-  while (!bench::has_frame(unfinished()) && command.is_running()) {
+  test::Command command(arguments(add), {.folder = home_.path()});
+  while (!test::has_frame(unfinished()) && command.is_running()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   command.send(SIGKILL);
@@ -651,8 +650,8 @@ class GenerateInParts : public Generate {
 TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
   const auto whole = in_one_go();
   for (const int signal : {SIGKILL, SIGTERM}) {
-    bench::Command command(arguments({"--out", folder(), "--quiet"}), {.folder = home_.path()});
-    while (!bench::has_frame(unfinished()) && command.is_running()) {
+    test::Command command(arguments({"--out", folder(), "--quiet"}), {.folder = home_.path()});
+    while (!test::has_frame(unfinished()) && command.is_running()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     command.send(signal);
@@ -664,7 +663,7 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
       EXPECT_NE(stopped.err.find("goes on from there"), std::string::npos) << stopped.err;
     }
     // Remains of an interruption: a partial file, and a truncated one.
-    bench::write(unfinished() / "work/other-4711.partial", "half");
+    test::write(unfinished() / "work/other-4711.partial", "half");
     fs::resize_file(unfinished() / "in/depth/000000.png", 100);
     const CommandResult result = generate({"--out", folder(), "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -678,11 +677,11 @@ TEST_F(GenerateInParts, FilesOfTheUserAreNeverReplacedAndBecomeNoPartOfTheSequen
   ASSERT_EQ(generate({"--out", folder(), "--shard", "1/2", "--quiet"}).exit_code, 0);
   for (const fs::path& file : {folder() / "thesis.tex", folder() / "README.md",
                                unfinished() / "in" / "depth" / "thesis.tex"}) {
-    bench::write(file, "precious");
+    test::write(file, "precious");
     const CommandResult result = generate({"--out", folder(), "--quiet"});
     EXPECT_EQ(result.exit_code, 2) << file;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-    EXPECT_EQ(bench::read(file), "precious");
+    EXPECT_EQ(test::read(file), "precious");
     fs::remove_all(folder());
     fs::remove(file);
   }
@@ -705,8 +704,8 @@ TEST_F(GenerateInParts, ADiskThatFillsUpIsToldInOneLineAndWithRoomItGoesOnToTheS
 TEST_F(GenerateInParts, TwoAtATimeIntoOneFolderLeaveAWholeSequence) {
   const auto whole = in_one_go();
   const auto all = arguments({"--out", folder(), "--quiet"});
-  bench::Command one(all, {.folder = home_.path()});
-  bench::Command other(all, {.folder = home_.path()});
+  test::Command one(all, {.folder = home_.path()});
+  test::Command other(all, {.folder = home_.path()});
   const int first = one.wait().exit_code, second = other.wait().exit_code;
   EXPECT_TRUE(first == 0 && second == 0) << first << ' ' << second;
   EXPECT_EQ(run_lcs(all, {.folder = home_.path()}).exit_code, 0);
@@ -798,7 +797,7 @@ TEST_F(GenerateInParts, RoverCollisionIsToldOnceWithAnyNumberOfJobs) {
 }
 
 TEST_F(GenerateInParts, ShardsOfASuiteAreTheSuiteAndOneBrokenScenarioDoesNotStopTheOthers) {
-  bench::write(home_.path() / "scenarios/broken.yaml", "frames: many\n");
+  test::write(home_.path() / "scenarios/broken.yaml", "frames: many\n");
   for (const char* name : {"a", "b", "c"}) {
     fs::copy_file(kCrossing, home_.path() / "scenarios" / fmt::format("{}.yaml", name));
   }

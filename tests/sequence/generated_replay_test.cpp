@@ -14,15 +14,15 @@
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
 #include "tools/scoring/figures_file.h"
+#include "tools/sequence/manifest.h"
 #include "tools/sequence/replay_settings.h"
-#include "tools/sequence/text_file.h"
 
 namespace lcs::sequence {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::run_lcs;
+using test::CommandResult;
+using test::run_lcs;
 
 struct Case {
   const char* name;
@@ -49,9 +49,9 @@ class GeneratedReplay : public testing::Test {
     return run_lcs(arguments, {.folder = home_.path()});
   }
   std::string layers(const char* folder) const {
-    return read_file(home_.path() / folder / bench::kLayersFile);
+    return read_file(home_.path() / folder / recording::kLayersFile);
   }
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
 };
 
 class GeneratedReplayOf : public GeneratedReplay, public testing::WithParamInterface<Case> {};
@@ -138,7 +138,7 @@ TEST_F(GeneratedReplay, HasTheLensAndItsPlaceInEveryCalibration) {
 /// Figures except times and those that the world determines.
 std::map<std::string, std::optional<double>> figures_of(const fs::path& run) {
   std::map<std::string, std::optional<double>> figures;
-  for (const auto& [name, figure] : bench::read_metrics(run / "metrics.json")) {
+  for (const auto& [name, figure] : scoring::read_metrics(run / "metrics.json")) {
     const bool is_own =
         name.starts_with("time.") || name.starts_with("sim.") || name.starts_with("warnings.");
     if (!is_own) figures[name] = figure;
@@ -204,7 +204,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
     std::string text = before;
     text.replace(start, before.find('\n', start) - start,
                  edit.line ? edit.line : "data: [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]");
-    bench::write(file, text);
+    test::write(file, text);
     const CommandResult result = replay();
     EXPECT_EQ(result.exit_code, 2);
     const std::size_t key = before.find(fmt::format("\n{}:", edit.key));
@@ -214,7 +214,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
                               edit.key + " is not as lcs.json of the sequence says; "),
               std::string::npos)
         << result.err;
-    bench::write(file, before);
+    test::write(file, before);
   }
   EXPECT_EQ(replay().exit_code, 0);
 }
@@ -230,8 +230,8 @@ TEST_F(GeneratedReplay, ByEurocsOwnFilesAloneIsTheSameToTheNoise) {
   for (const char* source : {"imu", "truth"}) {
     const CommandResult result = replay({"--ego-motion", source});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const bench::Recording run = bench::read_recording(home_.path() / "run");
-    const bench::Recording replayed = bench::read_recording(home_.path() / "replay");
+    const recording::Recording run = recording::read_recording(home_.path() / "run");
+    const recording::Recording replayed = recording::read_recording(home_.path() / "replay");
     ASSERT_EQ(replayed.frames.size(), run.frames.size());
     int same = 0, all = 0;
     for (std::size_t k = 1; k < run.frames.size(); ++k) {

@@ -78,7 +78,7 @@ TEST(Objects, OnlyMasksOfEightBitsLimitTheirNumber) {
     if (format.name == "davis") continue;
     EXPECT_NO_THROW(format.make(info)) << format.name;
   }
-  const std::string refusal = bench::refusal_of<input::Error>([&] { format("davis").make(info); });
+  const std::string refusal = test::refusal_of<input::Error>([&] { format("davis").make(info); });
   EXPECT_TRUE(refusal.starts_with("store.xml: the scene has 254 objects")) << refusal;
   EXPECT_NE(refusal.find("leave davis out of --formats"), std::string::npos) << refusal;
 }

@@ -27,8 +27,8 @@ namespace lcs::sequence {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::run_lcs;
+using test::CommandResult;
+using test::run_lcs;
 
 constexpr const char* kWorld = R"(scene: lab
 frames: 3
@@ -131,7 +131,7 @@ class View {
 class Rig : public testing::Test {
  protected:
   fs::path scenario(const std::string& cameras) const {
-    bench::write(home_.path() / "rig.yaml", kWorld + cameras);
+    test::write(home_.path() / "rig.yaml", kWorld + cameras);
     return home_.path() / "rig.yaml";
   }
   CommandResult lcs(std::vector<std::string> arguments) const {
@@ -145,7 +145,7 @@ class Rig : public testing::Test {
   }
   fs::path sequence() const { return home_.path() / "sequence"; }
 
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
 };
 
 /// KITTI's P, by its name.
@@ -261,14 +261,14 @@ TEST_F(Rig, EachCameraHasTheFilesOfASingleOne) {
   const std::string right = "camera: {size: [320, 240], position: [0.2 m, -0.06 m, 0.45 m]}\n";
   generate(left, formats, "left");
   generate(right + "image: {noise: none}\n", formats, "right");
-  const auto rig = bench::bytes_in(sequence());
-  for (const auto& [path, bytes] : bench::bytes_in(home_.path() / "left")) {
+  const auto rig = test::bytes_in(sequence());
+  for (const auto& [path, bytes] : test::bytes_in(home_.path() / "left")) {
     if (path.find('/') == std::string::npos && !path.starts_with("landmarks") &&
         !path.starts_with("truth"))
       continue;
     EXPECT_TRUE(rig.at(path) == bytes) << path;
   }
-  for (const auto& [path, bytes] : bench::bytes_in(home_.path() / "right")) {
+  for (const auto& [path, bytes] : test::bytes_in(home_.path() / "right")) {
     if (!path.starts_with("depth/") && !path.starts_with("flow")) continue;
     EXPECT_TRUE(rig.at("cam1/" + path) == bytes) << path;
   }
@@ -298,7 +298,7 @@ TEST_F(Rig, CamerasAtOnePlaceDifferByTheirNoiseAlone) {
 TEST_F(Rig, TheReplayOfEachCameraIsTheRunOfTheFilterOnIt) {
   generate(std::string(kConverging) + "filter_camera: right\n", "euroc,landmarks");
   const auto layers = [&](const char* folder) {
-    return bench::read(home_.path() / folder / bench::kLayersFile);
+    return test::read(home_.path() / folder / recording::kLayersFile);
   };
   const auto replay = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all{"replay",  sequence(), "--no-video",

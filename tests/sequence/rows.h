@@ -18,7 +18,7 @@ inline std::vector<std::vector<std::string>> rows_of(const std::filesystem::path
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with('#')) continue;
     std::vector<std::string> row;
-    for (const std::string_view field : bench::fields_of(line)) row.emplace_back(field);
+    for (const std::string_view field : files::fields_of(line)) row.emplace_back(field);
     rows.push_back(std::move(row));
   }
   return rows;

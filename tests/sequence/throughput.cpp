@@ -48,7 +48,7 @@ double bare_loop_s(const scenario::Scenario& scenario) {
 }
 
 double generate_s(const scenario::Scenario& scenario, std::vector<std::string> formats) {
-  const bench::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const sequence::GenerateOptions options{std::move(formats), {}, {}};
   sequence::SequenceFolder target(folder.path() / "sequence", scenario.file.parent_path(), false,
                                   false, {});

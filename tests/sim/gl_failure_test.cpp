@@ -46,7 +46,7 @@ class GlFailure : public testing::Test {
   ~GlFailure() override { fails_to_create = fails_to_make_current = false; }
   /// The error message of starting GL.
   static std::string refusal() {
-    return bench::refusal_of<std::runtime_error>([] { GlContext(); });
+    return lcs::test::refusal_of<std::runtime_error>([] { GlContext(); });
   }
 };
 

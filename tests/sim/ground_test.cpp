@@ -20,10 +20,10 @@ scenario::Scenario rough(double roughness_m) {
   auto s = test::scenario_in("lab", 0.4, 12);
   s.ego.drive = scenario::Drive::wheeled;
   s.ego.start_m = {-3, 0};
-  s.ground = scenario::Ground{.roughness_m = roughness_m,
-                              .wavelength_m = 0.4,
-                              .centre_m = Eigen::Vector2d(-1, 0),
-                              .size_m = {6, 3}};
+  s.ground = scenario::RoughGround{.roughness_m = roughness_m,
+                                   .wavelength_m = 0.4,
+                                   .centre_m = Eigen::Vector2d(-1, 0),
+                                   .size_m = {6, 3}};
   return s;
 }
 

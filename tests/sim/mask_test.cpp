@@ -60,7 +60,7 @@ TEST(Mask, OfAWholePictureAndOfItsBoxAreTheSame) {
     const cv::Size size(13, 10);
     const Mask mask = mask_of(any_picture(random, size));
     if (mask.box.empty()) continue;
-    const Runs whole = runs_in({{}, size}, mask);
+    const PixelRuns whole = runs_in({{}, size}, mask);
     const std::vector<std::int64_t> counts(whole.begin(), whole.end());
     const Mask back = mask_of(counts, size);
     EXPECT_EQ(back.box, mask.box);

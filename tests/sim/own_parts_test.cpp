@@ -152,7 +152,7 @@ constexpr const char* kObj =
 TEST_F(OwnActor, OfSeveralPartsAMeshAndATextureBesideItIsAnObjectThatMoves) {
   fs::create_directories(folder_ / "meshes");
   write("meshes/fork.obj", kObj);
-  bench::write_picture(folder_ / "wood.png", cv::Mat3b(8, 8, cv::Vec3b(40, 90, 160)));
+  lcs::test::write_picture(folder_ / "wood.png", cv::Mat3b(8, 8, cv::Vec3b(40, 90, 160)));
   auto s = on_floor();
   s.actors = {own_actor(
       "truck", file({.top = "<compiler meshdir='meshes'/>",
@@ -316,7 +316,7 @@ TEST_F(OwnActor, SeveralOfOneFileStandBesideEachOtherEachInItsOwnColours) {
             .inside = "<geom type='box' pos='0 0 .25' size='.5 .25 .25' material='paint'/>"
                       "<geom type='box' pos='0 0 .75' size='.5 .25 .25' material='other'/>"});
   const auto picture = [&](const std::string& name, const cv::Vec3b& bgr) {
-    bench::write_picture(folder_ / name, cv::Mat3b(8, 8, bgr));
+    lcs::test::write_picture(folder_ / name, cv::Mat3b(8, 8, bgr));
     return (folder_ / name).string();
   };
   auto s = on_floor();

@@ -17,7 +17,7 @@
 namespace lcs::sim {
 namespace {
 
-using bench::refusal_of;
+using lcs::test::refusal_of;
 
 std::string encoded(const std::string& format, const cv::Mat& picture,
                     const std::vector<int>& how = {}) {

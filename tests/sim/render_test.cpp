@@ -299,7 +299,7 @@ TEST(Render, TwoRenderersInOneProcessDoNotDisturbEachOther) {
 
 TEST(Render, AnImageLargerThanGlCanDrawIsAnErrorAndNotClipped) {
   World world(scenario_in_mjcf(floor_with(""), 0, 1));
-  const std::string what = bench::refusal_of<std::runtime_error>(
+  const std::string what = lcs::test::refusal_of<std::runtime_error>(
       [&] { CameraRenderer(world.model(), world.camera_id(), 100'000, 100'000); });
   EXPECT_NE(what.find("100000x100000"), std::string::npos) << what;
 }

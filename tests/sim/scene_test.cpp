@@ -165,7 +165,7 @@ TEST(Scene, AMissingTextureFileIsNamedWithItsLine) {
 
 TEST(Scene, TexturesAndIncludesBesideTheSceneAreFound) {
   const std::filesystem::path folder(testing::TempDir());
-  bench::write_picture(folder / "beside.png", cv::Mat3b(8, 8, cv::Vec3b(0, 0, 255)));
+  lcs::test::write_picture(folder / "beside.png", cv::Mat3b(8, 8, cv::Vec3b(0, 0, 255)));
   std::ofstream(folder / "beside.xml")
       << "<mujoco><worldbody><body name='included' pos='3 0 0'><geom type='box' size='.5 .5 .5' "
          "material='m'/></body></worldbody></mujoco>";
@@ -339,7 +339,7 @@ TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
   cv::Mat3b picture(64, 64, cv::Vec3b(255, 255, 255));
   picture(cv::Rect(0, 0, 32, 32)).setTo(cv::Vec3b(255, 0, 0));
   const std::string file = testing::TempDir() + "/quarter.png";
-  bench::write_picture(file, picture);
+  lcs::test::write_picture(file, picture);
   for (const double heading : {0.0, 90.0, 180.0, 270.0}) {
     auto s = scenario_in_mjcf(floor_with(""), 0, 1);
     s.actors = {line_actor("box", Shape::box, {2, 0}, heading * test::kDegree, 0)};

@@ -72,7 +72,7 @@ std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold)
 }
 
 std::string physics_error(const scenario::Scenario& scenario, std::int64_t until_ns) {
-  return bench::refusal_of<PhysicsError>([&] {
+  return lcs::test::refusal_of<PhysicsError>([&] {
     World world(scenario);
     std::vector<ImuSample> imu;
     std::vector<OdometrySample> odometry;

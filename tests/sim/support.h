@@ -36,7 +36,7 @@ std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold 
 
 template <typename Action>
 std::string scenario_error(const Action& action) {
-  return bench::refusal_of<input::Error>(action);
+  return lcs::test::refusal_of<input::Error>(action);
 }
 
 /// Message of the PhysicsError of a drive until `until_ns`.

@@ -35,7 +35,8 @@ TEST(Texture, StylesAreSortedAndDiffer) {
 }
 
 TEST(Texture, AnUnknownStyleNamesTheKnownOnes) {
-  const std::string what = bench::refusal_of<std::invalid_argument>([] { painted("tartan", 1); });
+  const std::string what =
+      lcs::test::refusal_of<std::invalid_argument>([] { painted("tartan", 1); });
   EXPECT_NE(what.find("tartan"), std::string::npos);
   EXPECT_NE(what.find("bricks"), std::string::npos);
 }

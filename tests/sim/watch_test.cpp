@@ -256,7 +256,7 @@ TEST(Watch, RoughGroundRampsAndRestingObjectsAreNothingToTell) {
   scenario.ego.drive = scenario::Drive::wheeled;
   EXPECT_EQ(counts(driven(scenario)), kNone);
   scenario = scenario_in_mjcf(floor_with(""), .5, 30);
-  scenario.ground = scenario::Ground{};
+  scenario.ground = scenario::RoughGround{};
   EXPECT_EQ(counts(driven(scenario)), kNone) << "holonomic";
   scenario.ego.drive = scenario::Drive::wheeled;
   EXPECT_EQ(counts(driven(scenario)), kNone);

@@ -62,8 +62,8 @@ std::vector<Seen> see(const scenario::Scenario& scenario, Intrinsics& camera) {
   sim::Simulation simulation(scenario);
   camera = bench::intrinsics(simulation.calibration().camera);
   Recorder recorder;
-  const bench::Watcher watcher{recorder, [](const auto&, const auto&) {}};
-  bench::run(scenario, simulation, {&watcher, 1});
+  const bench::DetectorRun detector{recorder, [](const auto&, const auto&) {}};
+  bench::run(scenario, simulation, {&detector, 1});
   for (std::size_t k = 0; k + 1 < recorder.seen.size(); ++k) {
     recorder.seen[k].back = reversed(recorder.seen[k + 1].forth, recorder.seen[k].forth.ground);
   }

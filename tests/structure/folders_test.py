@@ -1,6 +1,7 @@
-"""Checks the includes between the folders of the product.
+"""Checks the folders of the product.
 
-No folder includes, over others, itself; and no file includes one of a top folder that it must not know.
+No folder includes, over others, itself; no file includes one of a top folder that it must not know; and each
+file is in the namespace of its folder.
 
 Usage: folders_test.py REPOSITORY
 """
@@ -19,6 +20,18 @@ MAY_INCLUDE = {
     "scenes": {"scenarios", "sim"},
     "tools": {"scenarios", "filter", "sim", "scenes"},
 }
+# The namespaces of the folders; another folder of tools/ has one of its own name.
+NAMESPACES = {
+    "scenarios": {"lcs::scenario"},
+    "scenarios/input": {"lcs::input"},
+    "filter": {"lcs"},
+    "filter/paper": {"lcs::paper", "lcs"},  # `lcs`: the class for users
+    "sim": {"lcs::sim"},
+    "sim/scene": {"lcs::sim", "lcs::sim::xml", "lcs::sim::mj"},
+    "scenes/worlds": {"lcs::worlds"},
+    "tools/lcs": {"lcs::tools"},
+}
+NAMESPACE = re.compile(r"^namespace (lcs[a-z_:]*) \{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -30,6 +43,25 @@ def includes_in(root):
         for name in INCLUDE.findall((root / file).read_text(encoding="utf-8")):
             if (included := pathlib.Path(name)) in files:
                 yield file, included
+
+
+def namespaces_in(root):
+    """Pairs of a file of the product, relative to the root, and a namespace that it opens."""
+    for top in TOPS:
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix in (".h", ".cpp", ".inl"):
+                for name in NAMESPACE.findall(path.read_text(encoding="utf-8")):
+                    yield path.relative_to(root), name
+
+
+def strangers_in(namespaces):
+    """A line for each file that opens the namespace of another folder."""
+    for file, name in namespaces:
+        folders = [file.parent, *file.parent.parents]
+        own = next((NAMESPACES[str(folder)] for folder in folders if str(folder) in NAMESPACES),
+                   {f"lcs::{file.parts[1]}"})
+        if name not in own:
+            yield f"{file} is in the namespace {name}, not in {' or '.join(sorted(own))}"
 
 
 def circle_in(arrows):
@@ -73,7 +105,7 @@ def faults_in(includes):
 
 
 def check_itself():
-    """The check finds a circle over three folders, and an arrow that runs up."""
+    """The check finds a circle over three folders, an arrow that runs up, and a file in a foreign namespace."""
     def pairs(*names):
         return [tuple(map(pathlib.Path, pair)) for pair in names]
 
@@ -81,14 +113,18 @@ def check_itself():
     assert len(faults_in(circle)) == 1 and "circle" in faults_in(circle)[0]
     assert not faults_in(circle[:2])
     assert "must not know" in faults_in(pairs(("scenes/x.h", "tools/app/x.h")))[0]
+    path = pathlib.Path("tools/files/x.h")
+    assert not list(strangers_in([(path, "lcs::files")])) and list(strangers_in([(path, "lcs::app")]))
 
 
 def main():
     check_itself()
     includes = list(includes_in(pathlib.Path(sys.argv[1])))
     assert len(includes) > 1000, "too few includes were found to judge by"
-    faults = faults_in(includes)
-    print("\n".join(faults) or f"{len(includes)} includes, no circle")
+    namespaces = list(namespaces_in(pathlib.Path(sys.argv[1])))
+    assert len(namespaces) > 500, "too few namespaces were found to judge by"
+    faults = faults_in(includes) + list(strangers_in(namespaces))
+    print("\n".join(faults) or f"{len(includes)} includes, no circle; {len(namespaces)} namespaces")
     return 1 if faults else 0
 
 

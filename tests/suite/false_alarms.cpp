@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     const Comparison comparison = compare(before, after, [](std::string_view) { return true; });
     regressed += comparison.has_regressed();
     improved += comparison.count_means(Change::improved) > 0;
-    single += comparison.count(Change::regressed) > 0;
+    single += !comparison.with(Change::regressed).empty();
     means = comparison.judged_means;
   }
   std::string found;

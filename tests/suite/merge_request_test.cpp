@@ -17,13 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A false alarm of static corners.
-bench::Event false_alarm(int first_frame, int corners, const std::string& picture) {
-  bench::Event event;
-  event.kind = bench::EventKind::false_alarm;
+scoring::ScoredEvent false_alarm(int first_frame, int corners, const std::string& picture) {
+  scoring::ScoredEvent event;
+  event.kind = scoring::EventKind::false_alarm;
   event.first_frame = first_frame;
   event.last_frame = first_frame + 4;
   event.corners = corners;
-  event.views = {{first_frame + 2, 0.1 * first_frame, {50, 50}, {10, 10}, bench::base64(picture)}};
+  event.views = {
+      {first_frame + 2, 0.1 * first_frame, {50, 50}, {10, 10}, scoring::base64(picture)}};
   return event;
 }
 
@@ -31,13 +32,13 @@ bench::Event false_alarm(int first_frame, int corners, const std::string& pictur
 class MergeRequest : public testing::Test {
  protected:
   SuiteResult suite(const std::string& name, std::vector<std::optional<double>> f1,
-                    const std::vector<bench::Event>& events) const {
+                    const std::vector<scoring::ScoredEvent>& events) const {
     SuiteResult suite = suite_with({scenario_with("near|by", "rebel.f1", f1)});
     for (RunResult& run : suite.scenarios.front().runs) {
       run.folder = fs::path("runs") / std::to_string(run.seed);
       fs::create_directories(home_.path() / name / run.folder);
-      bench::write_events(home_.path() / name / run.folder / bench::kEventsFile,
-                          run.seed == 2 ? events : std::vector<bench::Event>{}, {});
+      scoring::write_events(home_.path() / name / run.folder / scoring::kEventsFile,
+                            run.seed == 2 ? events : std::vector<scoring::ScoredEvent>{}, {});
     }
     return suite;
   }
@@ -49,12 +50,12 @@ class MergeRequest : public testing::Test {
     const SuiteInFolder then{before, home_.path() / "before"}, now{after, home_.path() / "after"};
     write_merge_request(home_.path() / "out", then, now, comparison,
                         verdict_of(now, &then, &comparison), pictures_at);
-    return bench::read(home_.path() / "out" / kSummaryFile);
+    return test::read(home_.path() / "out" / kSummaryFile);
   }
-  std::string picture(const char* name) const { return bench::read(home_.path() / "out" / name); }
+  std::string picture(const char* name) const { return test::read(home_.path() / "out" / name); }
   bool has(const char* name) const { return fs::exists(home_.path() / "out" / name); }
 
-  const bench::TemporaryFolder home_;
+  const test::TemporaryFolder home_;
   const std::vector<std::optional<double>> good_{0.80, 0.81, 0.82}, bad_{0.50, 0.51, 0.52};
 };
 

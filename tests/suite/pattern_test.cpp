@@ -15,7 +15,7 @@ bool fits(const std::string& pattern, std::string_view name) {
 }
 
 std::string refusal(const std::string& pattern) {
-  return bench::refusal_of<std::runtime_error>([&] { fits(pattern, ""); });
+  return test::refusal_of<std::runtime_error>([&] { fits(pattern, ""); });
 }
 
 TEST(Pattern, IsARegularExpressionForAPartOfAName) {

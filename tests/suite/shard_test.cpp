@@ -11,7 +11,7 @@
 namespace lcs::suite {
 namespace {
 
-using bench::refusal_of;
+using test::refusal_of;
 
 TEST(Shard, IsAPartOfAll) {
   EXPECT_EQ(shard_of("3/16").part, 3);

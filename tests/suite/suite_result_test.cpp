@@ -52,9 +52,9 @@ class SuiteFile : public testing::Test {
     return Json::parse(input);
   }
   std::string refusal() {
-    return bench::refusal_of<std::runtime_error>([&] { read_suite(file_); });
+    return test::refusal_of<std::runtime_error>([&] { read_suite(file_); });
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_.path() / kSuiteFile;
 };
 
@@ -125,7 +125,7 @@ TEST_F(SuiteFile, MissingFileIsNamed) {
 }
 
 TEST(SuiteFolder, HasANameForAFileWithoutAFolderAndForWhatIsNotThere) {
-  const bench::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string file = folder.path() / "suite.json";
   std::ofstream(file) << "{}";
   EXPECT_EQ(folder_of(folder.path()), folder.path());
@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST_F(SuiteFile, UnwritableFileIsAnOutputError) {
-  EXPECT_THROW(write_suite("/no/such/folder/suite.json", full_suite()), bench::OutputError);
-  EXPECT_THROW(write_suite("/dev/full", full_suite()), bench::OutputError);
+  EXPECT_THROW(write_suite("/no/such/folder/suite.json", full_suite()), files::OutputError);
+  EXPECT_THROW(write_suite("/dev/full", full_suite()), files::OutputError);
 }
 
 }  // namespace

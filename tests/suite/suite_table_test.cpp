@@ -48,7 +48,7 @@ TEST(Summary, IsTakenOverTheSeedsThatHaveTheFigure) {
   EXPECT_EQ(spread->count, 2);
   EXPECT_FALSE(over_seeds(scenario("near", {std::nullopt}), "rebel.f1"));
   EXPECT_FALSE(over_seeds(broken("near"), "rebel.f1"));
-  EXPECT_DOUBLE_EQ(over_seeds(scenario("near", {0.5}), bench::kSizeShare)->mean, 0.25);
+  EXPECT_DOUBLE_EQ(over_seeds(scenario("near", {0.5}), scoring::kSizeShare)->mean, 0.25);
 }
 
 TEST(Summary, OfAGroupWeighsItsScenariosAlikeHoweverManySeeds) {

@@ -11,13 +11,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Verdict verdict_against(const SuiteInFolder& after, const SuiteInFolder& before) {
+SuiteVerdict verdict_against(const SuiteInFolder& after, const SuiteInFolder& before) {
   const Comparison comparison =
       compare(before.suite, after.suite, [](std::string_view) { return true; });
   return verdict_of(after, &before, &comparison);
 }
 
-bench::JudgedCriterion criterion(bool met, bool required = true) {
+scoring::JudgedCriterion criterion(bool met, bool required = true) {
   return {.metric = "rebel.f1",
           .min = 0.5,
           .max = {},
@@ -27,7 +27,7 @@ bench::JudgedCriterion criterion(bool met, bool required = true) {
           .message = met ? "" : "rebel.f1 is 0.4, must be at least 0.5"};
 }
 
-TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
+TEST(SuiteVerdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   const auto with = [](double worse, double better) {
     return suite_with({scenario_with("a", "rebel.f1", {worse, worse}),
                        scenario_with("b", "rebel.f1", {better, better}),
@@ -45,7 +45,7 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
     run.outcome = Outcome::failed;
   }
   after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
-  const Verdict verdict = verdict_against({after, {}}, {before, {}});
+  const SuiteVerdict verdict = verdict_against({after, {}}, {before, {}});
   EXPECT_EQ(verdict.line,
             "not regressed: of 1 mean 0 regressed, 0 improved; of 4 scenarios 1 regressed, 1 "
             "improved, 1 as before, 1 not compared; 7 of 11 criteria met, 2 failed, 2 missed but "
@@ -59,7 +59,7 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
                                "(fails with 2 of 2 seeds)"});
 }
 
-TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
+TEST(SuiteVerdict, WithoutABaselineCountsCriteriaAndErrors) {
   SuiteResult suite = suite_with({scenario_with("a", "rebel.f1", {0.5})});
   EXPECT_EQ(verdict_of({suite, {}}, nullptr, nullptr).line,
             "1 run without an error, no criteria asked for");
@@ -67,14 +67,14 @@ TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
   suite.scenarios.push_back(scenario_with("b", "rebel.f1", {0.5}));
   suite.scenarios[1].runs[0] = {};
   suite.scenarios[1].runs[0].error = "no such scene";
-  const Verdict verdict = verdict_of({suite, {}}, nullptr, nullptr);
+  const SuiteVerdict verdict = verdict_of({suite, {}}, nullptr, nullptr);
   EXPECT_EQ(verdict.line, "2 of 3 criteria met, 0 failed, 1 run with an error");
   ASSERT_EQ(verdict.remarks.size(), 1u);
   EXPECT_EQ(verdict.remarks[0].standings, std::vector{Standing::error});
   EXPECT_EQ(verdict.remarks[0].reasons, std::vector<std::string>{"seed 0: no such scene"});
 }
 
-TEST(Verdict, TheWorstComesFirstWithItsReasons) {
+TEST(SuiteVerdict, TheWorstComesFirstWithItsReasons) {
   const auto with = [](double a, double b, double c) {
     return suite_with({scenario_with("a", "rebel.f1", {a, a}), scenario_with("b", "rebel.f1", {b}),
                        scenario_with("c", "rebel.f1", {c, c}),
@@ -103,35 +103,36 @@ TEST(Verdict, TheWorstComesFirstWithItsReasons) {
 class VerdictOnRules : public testing::Test {
  protected:
   /// A suite with one run with these events, in a folder called `name`.
-  SuiteResult suite(const std::string& name, double f1, const std::vector<bench::Event>& events) {
+  SuiteResult suite(const std::string& name, double f1,
+                    const std::vector<scoring::ScoredEvent>& events) {
     SuiteResult made = suite_with({scenario_with("near", "rebel.f1", {f1})});
     made.scenarios[0].runs[0].folder = "run";
     fs::create_directories(folder_.path() / name / "run");
-    bench::write_events(folder_.path() / name / "run" / bench::kEventsFile, events,
-                        bench::sums_of(events));
+    scoring::write_events(folder_.path() / name / "run" / scoring::kEventsFile, events,
+                          scoring::sums_of(events));
     return made;
   }
-  static bench::Event event(bool missed, std::vector<std::pair<Reason, int>> reasons) {
-    bench::Event event;
-    event.kind = missed ? bench::EventKind::lost : bench::EventKind::false_alarm;
+  static scoring::ScoredEvent event(bool missed, std::vector<std::pair<Reason, int>> reasons) {
+    scoring::ScoredEvent event;
+    event.kind = missed ? scoring::EventKind::lost : scoring::EventKind::false_alarm;
     event.counted_corners = missed ? 100 : 0;
     event.reasons = std::move(reasons);
     return event;
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
   const SuiteResult before =
       suite("before", 0.8, {event(true, {{Reason::first_sighting, 50}, {Reason::normal_edge, 2}})});
-  bench::Event split;
-  split.kind = bench::EventKind::square_split;
+  scoring::ScoredEvent split;
+  split.kind = scoring::EventKind::square_split;
   split.frames = 40;
   const SuiteResult after = suite(
       "after", 0.6,
       {event(true, {{Reason::first_sighting, 60}, {Reason::normal_edge, 20}}),
        event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::inherited, 9}}), split});
-  const Verdict verdict =
+  const SuiteVerdict verdict =
       verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
   ASSERT_EQ(verdict.remarks.size(), 1u);
   EXPECT_EQ(verdict.remarks[0].reasons,
@@ -149,7 +150,7 @@ TEST_F(VerdictOnRules, EventsThatAreNotThereOrCannotBeReadExplainNothing) {
   const SuiteResult before = suite("before", 0.8, {});
   const SuiteResult after = suite("after", 0.6, {event(true, {{Reason::first_sighting, 60}})});
   fs::remove_all(folder_.path() / "before");
-  const Verdict verdict =
+  const SuiteVerdict verdict =
       verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
   EXPECT_EQ(verdict.remarks.at(0).reasons.size(), 1u);
 }

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 /// Runs in the child up to exec; uses only calls that are safe after fork.
@@ -100,4 +100,4 @@ CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOp
   return Command(arguments, options).wait();
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 struct CommandResult {
   int exit_code = -1;  ///< 128 + signal if killed by a signal
@@ -54,4 +54,4 @@ class Command {
 
 CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOptions& options);
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -14,7 +14,7 @@
 namespace lcs::suite {
 namespace {
 
-using bench::CommandResult;
+using test::CommandResult;
 
 class CompareCommand : public testing::Test {
  protected:
@@ -27,9 +27,9 @@ class CompareCommand : public testing::Test {
   }
   CommandResult compare(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "compare");
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(CompareCommand, ExitsWithZeroForTheSameAndForTheBetter) {
@@ -55,7 +55,7 @@ std::string on_terminal(const std::vector<std::string>& arguments,
   EXPECT_EQ(::unlockpt(terminal), 0);
   const std::string name = ::ptsname(terminal);
   const int held = ::open(name.c_str(), O_RDWR | O_NOCTTY);  // else the output is lost at the end
-  bench::run_lcs(arguments, {.folder = folder, .out = name});
+  test::run_lcs(arguments, {.folder = folder, .out = name});
   std::string text(4096, ' ');
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(terminal, &text[0], 4096))));
   ::close(held);

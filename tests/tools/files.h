@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// A file's bytes; the test fails if the file does not exist.
 inline std::string read(const std::filesystem::path& path) {
@@ -45,4 +45,4 @@ inline std::map<std::string, std::string> bytes_in(const std::filesystem::path& 
   return bytes;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

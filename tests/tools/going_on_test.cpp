@@ -20,11 +20,11 @@ namespace lcs {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::bytes_in;
-using bench::CommandResult;
-using bench::entries;
-using bench::read;
-using bench::write;
+using test::bytes_in;
+using test::CommandResult;
+using test::entries;
+using test::read;
+using test::write;
 using Words = std::vector<std::string>;
 
 /// A detector that calls nothing a rebel.
@@ -61,7 +61,7 @@ class GoingOn : public testing::Test {
   }
   void change_wall() { write(home_ / "scenes" / "wall.xml", wall("0.9")); }
 
-  CommandResult lcs(const Words& words) { return bench::run_lcs(words, {.folder = home_}); }
+  CommandResult lcs(const Words& words) { return test::run_lcs(words, {.folder = home_}); }
   static Words joined(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -69,15 +69,15 @@ class GoingOn : public testing::Test {
   /// Kills a command as soon as `is_time`, and waits until its children have tidied up.
   /// \return false if the command was done before.
   bool is_killed(const Words& words, const std::function<bool()>& is_time) {
-    bench::Command command(words, {.folder = home_});
+    test::Command command(words, {.folder = home_});
     while (command.is_running() && !is_time()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    const std::vector<pid_t> children = bench::children_of(command.pid());
+    const std::vector<pid_t> children = test::children_of(command.pid());
     command.send(SIGKILL);
     const bool is_done = command.wait().exit_code == 0;
     for (const pid_t child : children) {
-      while (bench::is_running(child)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      while (test::is_running(child)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return !is_done;
   }
@@ -117,7 +117,7 @@ class GoingOn : public testing::Test {
     ASSERT_EQ(lcs(joined(joined(suite, {"--shard", "2/2", "--out", "p2"}), second)).exit_code, 0);
   }
 
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const fs::path home_ = fs::canonical(folder_.path());
 };
 
@@ -228,14 +228,14 @@ TEST_F(GoingOn, PartsOfDifferentDetectionsAreNotMerged) {
 
 TEST_F(GoingOn, PartsOfTwoFoldersWithCopiesOfTheFilesAreMerged) {
   make_parts({}, {}, [] {});
-  const bench::TemporaryFolder other;
+  const test::TemporaryFolder other;
   fs::copy(home_, other.path() / "copy", fs::copy_options::recursive);
   const fs::path there = fs::canonical(other.path() / "copy");
   fs::remove_all(there / "p1");
   fs::remove_all(there / "p2");
   ASSERT_EQ(
-      bench::run_lcs({"suite", "s", "--seeds", "1", "--shard", "2/2", "--out", "p2", "--quiet"},
-                     {.folder = there})
+      test::run_lcs({"suite", "s", "--seeds", "1", "--shard", "2/2", "--out", "p2", "--quiet"},
+                    {.folder = there})
           .exit_code,
       0);
   const CommandResult result = lcs({"merge", "p1", there / "p2", "--out", "m", "--quiet"});
@@ -317,7 +317,7 @@ class GoingOnWithASequence : public GoingOn {
   }
   /// As soon as a frame is in the journal of the process.
   void kill_after_a_frame(const Words& words) {
-    ASSERT_TRUE(is_killed(words, [&] { return bench::has_frame(home_ / "q.unfinished"); }))
+    ASSERT_TRUE(is_killed(words, [&] { return test::has_frame(home_ / "q.unfinished"); }))
         << "it was done before it could be killed";
   }
 };

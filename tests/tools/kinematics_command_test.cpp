@@ -15,7 +15,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/csv.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,9 +43,9 @@ class Answer {
     std::getline(lines, line);
     EXPECT_EQ(line, "topic,figure,value,unit,expected");
     while (std::getline(lines, line)) {
-      const auto fields = fields_of(line);
-      figures_[std::string(fields.at(1))] = {number_in<double>(fields.at(2)).value(),
-                                             number_in<double>(fields.at(4))};
+      const auto fields = files::fields_of(line);
+      figures_[std::string(fields.at(1))] = {files::number_in<double>(fields.at(2)).value(),
+                                             files::number_in<double>(fields.at(4))};
     }
   }
   Figure take(const std::string& name) {
@@ -219,4 +219,4 @@ TEST_F(Kinematics, AnInterruptLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

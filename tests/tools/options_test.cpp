@@ -22,7 +22,7 @@
 #include "tools/app/tune.h"
 #include "tools/app/world.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -195,4 +195,4 @@ TEST(RowsOfDetectors, LimitOfTimeGoesWithAProgramAlone) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

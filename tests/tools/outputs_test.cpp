@@ -19,7 +19,7 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,7 +85,7 @@ class Outputs : public testing::Test {
     for (int i = 0; i < 4; ++i) {
       cv::Mat1b picture(48, 64, static_cast<uchar>(90));
       picture(cv::Rect(10 + i, 10, 20, 20)) = 200;
-      bench::write_picture(home / "pictures" / fmt::format("{}.png", i), picture);
+      write_picture(home / "pictures" / fmt::format("{}.png", i), picture);
     }
     for (const Arguments& arguments :
          {Arguments{"run", "scenarios/mine.yaml", "--out", "run", "--no-video", "--quiet"},
@@ -374,4 +374,4 @@ TEST_F(Outputs, InAFolderThatCannotBeWrittenToAreRefused) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

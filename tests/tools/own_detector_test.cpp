@@ -24,10 +24,10 @@ namespace lcs {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::Command;
-using bench::CommandResult;
-using bench::entries;
-using bench::read;
+using test::Command;
+using test::CommandResult;
+using test::entries;
+using test::read;
 using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
@@ -127,7 +127,7 @@ class OwnDetector : public testing::Test {
         << more;
   }
   CommandResult lcs(const std::vector<std::string>& arguments) const {
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   }
   static std::string mine(const std::string& mode) { return python() + " mine.py '" + mode + "'"; }
   std::vector<std::string> run_arguments(const std::string& mode) const {
@@ -141,7 +141,7 @@ class OwnDetector : public testing::Test {
     return lines;
   }
 
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(OwnDetector, IsToldWhatTheFilterIsAndSeesEachPicture) {
@@ -197,13 +197,15 @@ TEST_F(OwnDetector, HasATimeOfItsOwnKindAndFiguresThatItCannotHaveAreNull) {
 TEST_F(OwnDetector, MayGiveMasksAsCocosToolsHaveThem) {
   const CommandResult command = lcs(run_arguments("masks"));
   ASSERT_EQ(command.exit_code, 0) << command.err;
-  const bench::FrameRecord frame = bench::read_recording(folder_.path() / "out").frames.at(2);
+  const recording::FrameRecord frame =
+      recording::read_recording(folder_.path() / "out").frames.at(2);
   const auto& squares = frame.layers.squares;
   ASSERT_EQ(squares.size(), 2U);
   ASSERT_EQ(frame.masks.size(), 2U);
-  EXPECT_EQ(frame.masks.at(squares[1].id).runs, (sim::Runs{0, 240}));
-  EXPECT_EQ(bench::edges_of(squares[0]), Eigen::Vector4d(5, 45, 7, 66)) << "as pycocotools has it";
-  EXPECT_EQ(bench::edges_of(squares[1]), Eigen::Vector4d(0, 0, 1, 240));
+  EXPECT_EQ(frame.masks.at(squares[1].id).runs, (sim::PixelRuns{0, 240}));
+  EXPECT_EQ(recording::edges_of(squares[0]), Eigen::Vector4d(5, 45, 7, 66))
+      << "as pycocotools has it";
+  EXPECT_EQ(recording::edges_of(squares[1]), Eigen::Vector4d(0, 0, 1, 240));
 }
 
 TEST_F(OwnDetector, ProtocolFaultEndsTheRunWithOneMessageAndNoOutput) {
@@ -318,9 +320,9 @@ TEST_F(OwnDetector, LeavesNoProcessBehindHoweverTheRunEnds) {
     Command command(run_arguments("hangs"), {.folder = folder_.path()});
     std::vector<pid_t> children;  // the scene is also tried in a child
     const auto has_program = [&] {
-      children = bench::children_of(command.pid());
+      children = test::children_of(command.pid());
       return std::any_of(children.begin(), children.end(), [](pid_t child) {
-        return bench::command_line_of(child).find("mine.py") != std::string::npos;
+        return test::command_line_of(child).find("mine.py") != std::string::npos;
       });
     };
     for (int i = 0; i < 1000 && !has_program(); ++i) std::this_thread::sleep_for(10ms);
@@ -330,7 +332,7 @@ TEST_F(OwnDetector, LeavesNoProcessBehindHoweverTheRunEnds) {
     const CommandResult result = command.wait();
     EXPECT_EQ(result.exit_code, signal == SIGKILL ? 128 + SIGKILL : 130) << result.err;
     const auto any_runs = [&] {
-      return std::any_of(children.begin(), children.end(), bench::is_running);
+      return std::any_of(children.begin(), children.end(), test::is_running);
     };
     for (int i = 0; i < 200 && any_runs(); ++i) std::this_thread::sleep_for(10ms);
     EXPECT_FALSE(any_runs()) << "after signal " << signal;
@@ -340,7 +342,8 @@ TEST_F(OwnDetector, LeavesNoProcessBehindHoweverTheRunEnds) {
 TEST_F(OwnDetector, MayAskForLongerAnswersInItsGreeting) {
   const CommandResult command = lcs(run_arguments("asks for more"));
   ASSERT_EQ(command.exit_code, 0) << command.err;
-  const bench::FrameRecord frame = bench::read_recording(folder_.path() / "out").frames.at(3);
+  const recording::FrameRecord frame =
+      recording::read_recording(folder_.path() / "out").frames.at(3);
   ASSERT_FALSE(frame.verdicts.empty());
   EXPECT_EQ(frame.verdicts.front(), Verdict::rebel);
 }
@@ -352,7 +355,7 @@ std::vector<pid_t> processes_with(const std::string& word) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     const pid_t process = std::stoi(name);
-    if (bench::command_line_of(process).find(word) != std::string::npos) found.push_back(process);
+    if (test::command_line_of(process).find(word) != std::string::npos) found.push_back(process);
   }
   return found;
 }
@@ -376,7 +379,7 @@ TEST_F(OwnDetector, OfAnyCommandOfAShellEndsWithAProgramThatIsKilled) {
     const auto has_nap = [&] {
       const auto all = naps_now();
       return std::ranges::any_of(all, [](pid_t process) {
-        return bench::command_line_of(process).starts_with(python() + std::string(1, '\0'));
+        return test::command_line_of(process).starts_with(python() + std::string(1, '\0'));
       });
     };
     for (int i = 0; i < 1000 && !has_nap(); ++i) std::this_thread::sleep_for(10ms);
@@ -406,7 +409,7 @@ TEST_F(OwnDetector, FailureInOneRunOfASuiteLeavesTheOthers) {
                 R"( mine.py '\''dies for far'\''')");
   EXPECT_EQ(result.scenarios.at(0).runs.at(0).outcome, suite::Outcome::error);
   EXPECT_EQ(result.scenarios.at(1).runs.at(0).outcome, suite::Outcome::passed);
-  EXPECT_EQ(bench::value(result.scenarios.at(1).runs.at(0).metrics, "rebel.recall"), 0);
+  EXPECT_EQ(scoring::value(result.scenarios.at(1).runs.at(0).metrics, "rebel.recall"), 0);
 }
 
 /// Figures except times.
@@ -449,9 +452,9 @@ TEST_F(OwnDetector, TheExampleHasTheSameFiguresByItsProgramAndByFilesOverASuite)
     for (std::size_t r = 0; r < 2; ++r) {
       const suite::RunResult &a = asked.scenarios[s].runs.at(r), &b = said.scenarios[s].runs.at(r);
       EXPECT_EQ(figures_of(a), figures_of(b));
-      EXPECT_GT(bench::value(a.metrics, "rebel.f1"), 0.3) << "it does find something";
-      EXPECT_TRUE(bench::value(a.metrics, "rebel.false_objects_per_100_frames"));
-      EXPECT_FALSE(bench::value(b.metrics, "time.process_ms_median")) << "nobody was asked";
+      EXPECT_GT(scoring::value(a.metrics, "rebel.f1"), 0.3) << "it does find something";
+      EXPECT_TRUE(scoring::value(a.metrics, "rebel.false_objects_per_100_frames"));
+      EXPECT_FALSE(scoring::value(b.metrics, "time.process_ms_median")) << "nobody was asked";
       EXPECT_EQ(a.outcome, b.outcome);
     }
   }
@@ -464,8 +467,8 @@ TEST_F(OwnDetector, TheExampleHasTheSameFiguresByItsProgramAndByFilesOverASuite)
   const CommandResult live = lcs({"run", "scenarios/near.yaml", "--out", "live", "--no-video",
                                   "--quiet", "--detector", "lk", "--detector-command", example});
   EXPECT_EQ(live.exit_code, 0) << live.err;
-  const auto live_metrics = bench::read_metrics(folder_.path() / "live" / "metrics.json");
-  EXPECT_GT(bench::value(live_metrics, "rebel.f1"), 0.3);
+  const auto live_metrics = scoring::read_metrics(folder_.path() / "live" / "metrics.json");
+  EXPECT_GT(scoring::value(live_metrics, "rebel.f1"), 0.3);
 }
 
 TEST_F(OwnDetector, FilesOfDetectionsThatAreMissingAreAllNamedBeforeAnythingRuns) {

@@ -13,7 +13,7 @@
 #include "sim/pictures/media.h"
 #include "tests/tools/files.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// Writes a picture in the format of the file's extension.
 inline void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
@@ -31,4 +31,4 @@ inline std::unique_ptr<cv::VideoWriter> new_video(const std::filesystem::path& f
   return video;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

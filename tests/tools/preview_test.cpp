@@ -18,8 +18,8 @@ namespace lcs::preview {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
-using bench::read;
+using test::CommandResult;
+using test::read;
 
 /// A crate beside the rover's way, and a box that passes.
 constexpr const char* kScene =
@@ -53,14 +53,14 @@ class PreviewCommand : public testing::Test {
     for (const std::string& line : preview(load(sets)).wrong) all += line + "\n";
     return all;
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PreviewCommand, TellsWhoGoesWhereAndWhoIsSeen) {
   const Preview p = preview(load());
   EXPECT_EQ(p.wrong, std::vector<std::string>{});
   ASSERT_EQ(p.movers.size(), 1u);
-  const Mover& walker = p.movers.front();
+  const PreviewMover& walker = p.movers.front();
   ASSERT_TRUE(walker.moves);
   EXPECT_NEAR(walker.moves->to_s, 1.9, 1e-9);  // the last of 20 frames at 10 Hz
   EXPECT_NEAR((walker.way_m.back() - Eigen::Vector2d(3, 0.9)).norm(), 0, 1e-6);
@@ -116,7 +116,7 @@ TEST_F(PreviewCommand, ThePageIsWrittenAlsoWhereARunIsRefused) {
   const std::vector<std::string> set{"--set", "actors.walker.trajectory.line.from=[4 m, 2 m]"};
   const auto run = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), set.begin(), set.end());
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   };
   EXPECT_EQ(run({"run", "mine.yaml"}).exit_code, 2);
   const CommandResult result = run({"preview", "mine.yaml"});
@@ -131,7 +131,7 @@ TEST_F(PreviewCommand, ThePageIsWrittenAlsoWhereARunIsRefused) {
 }
 
 TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
-  const CommandResult result = bench::run_lcs(
+  const CommandResult result = test::run_lcs(
       {"preview", "mine.yaml", "--quiet", "--mjcf", "world.xml", "--set", "ego.start=[1 m, 0 m]"},
       {.folder = folder_.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -145,7 +145,7 @@ TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
   EXPECT_TRUE(model.has(mjOBJ_BODY, "crate"));
   EXPECT_FALSE(model.m().opt.disableflags & mjDSBL_CONTACT) << "what is added to it can stand";
 
-  bench::write(folder_.path() / "world.mjb", sim::world_file(load(), sim::WorldFormat::mjb));
+  test::write(folder_.path() / "world.mjb", sim::world_file(load(), sim::WorldFormat::mjb));
   const std::unique_ptr<mjModel, sim::ModelDeleter> binary(
       mj_loadModel((folder_.path() / "world.mjb").c_str(), nullptr));
   ASSERT_TRUE(binary);
@@ -155,8 +155,7 @@ TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
 TEST_F(PreviewCommand, RecordedFramesHaveNoWorldToShow) {
   fs::create_directory(folder_.path() / "pictures");
   std::ofstream(folder_.path() / "drive.yaml") << "recording: {path: pictures, focal: 100 px}\n";
-  const CommandResult result =
-      bench::run_lcs({"preview", "drive.yaml"}, {.folder = folder_.path()});
+  const CommandResult result = test::run_lcs({"preview", "drive.yaml"}, {.folder = folder_.path()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("there is no world to simulate"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));

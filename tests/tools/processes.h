@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// State of a process as one letter, and its parent; the state is 0 after its end.
 struct ProcessState {
@@ -54,4 +54,4 @@ inline std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -6,7 +6,7 @@
 
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// Pixels [left, right) x [top, bottom).
 struct PixelBox {
@@ -75,15 +75,15 @@ class FrameMaker {
     return *this;
   }
 
-  operator FrameRecord() const { return frame_; }
-  FrameRecord& record() { return frame_; }
+  operator recording::FrameRecord() const { return frame_; }
+  recording::FrameRecord& record() { return frame_; }
 
  private:
-  FrameRecord frame_;
+  recording::FrameRecord frame_;
 };
 
-inline Recording recording_of(std::vector<FrameRecord> frames) {
-  Recording recording;
+inline recording::Recording recording_of(std::vector<recording::FrameRecord> frames) {
+  recording::Recording recording;
   recording.scenario = "made_by_hand";
   recording.seed = 7;
   recording.objects = {{1, "mover"}, {2, "picture"}};
@@ -91,4 +91,4 @@ inline Recording recording_of(std::vector<FrameRecord> frames) {
   return recording;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// The message of the `Error` that `action` throws.
 template <class Error = std::exception, class Action>
@@ -18,4 +18,4 @@ std::string refusal_of(const Action& action) {
   return "nothing was refused";
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -15,7 +15,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ struct Replay : testing::Test {
   void draw(int frames) const {
     for (int k = 0; k < frames; ++k) {
       // Numbers without leading zeros: by name, 10 would come before 2.
-      bench::write_picture(pictures() / ("view" + std::to_string(k + 1) + ".png"), wall(k));
+      write_picture(pictures() / ("view" + std::to_string(k + 1) + ".png"), wall(k));
     }
   }
   CommandResult replay(std::vector<std::string> more = {}) const {
@@ -60,7 +60,7 @@ struct Replay : testing::Test {
     return run_lcs(arguments, {.folder = folder_.path()});
   }
   nlohmann::json metrics() const {
-    std::ifstream file(out() / kMetricsFile);
+    std::ifstream file(out() / scoring::kMetricsFile);
     return nlohmann::json::parse(file);
   }
 
@@ -75,7 +75,7 @@ TEST_F(Replay, TracksAWallThatComesNearerAndLearnsItsDepth) {
   EXPECT_EQ(figures["frames"], 12);
   EXPECT_GT(figures["edges.rematched"], 0.8);
   EXPECT_TRUE(figures["rebel.f1"].is_null()) << "there is no truth";
-  const Recording recording = read_recording(out());
+  const recording::Recording recording = recording::read_recording(out());
   const Layers& layers = recording.frames.back().layers;
   ASSERT_GT(layers.normal_edges.size(), 50u);
   // Whole pixels over 11 frames: most depths are within 10 % of the wall's.
@@ -92,7 +92,7 @@ TEST_F(Replay, TheSamePicturesGiveTheSameBytesWithOneThreadAndTwo) {
   std::vector<std::string> bytes;
   for (const char* threads : {"1", "1", "2"}) {
     ASSERT_EQ(replay({"--no-video", "--quiet", "--threads", threads}).exit_code, 0);
-    std::ifstream file(out() / kLayersFile, std::ios::binary);
+    std::ifstream file(out() / recording::kLayersFile, std::ios::binary);
     bytes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
   EXPECT_FALSE(bytes[0].empty());
@@ -102,7 +102,7 @@ TEST_F(Replay, TheSamePicturesGiveTheSameBytesWithOneThreadAndTwo) {
 
 TEST_F(Replay, SkipsAndNamesWhatItCannotUseAndLetsItsTimePass) {
   draw(6);
-  bench::write_picture(pictures() / "view3.png", cv::Mat1b(100, 100, 20));
+  write_picture(pictures() / "view3.png", cv::Mat1b(100, 100, 20));
   std::ofstream(pictures() / "view4.png") << "not a picture";
   std::ofstream(pictures() / "notes.txt") << "neither named nor looked at";
   const CommandResult result = replay({"--no-video"});
@@ -111,7 +111,7 @@ TEST_F(Replay, SkipsAndNamesWhatItCannotUseAndLetsItsTimePass) {
   EXPECT_NE(result.err.find("view4.png: this is no picture that can be read"), std::string::npos)
       << result.err;
   EXPECT_NE(result.out.find("4 pictures, 2 skipped"), std::string::npos) << result.out;
-  const Recording recording = read_recording(out());
+  const recording::Recording recording = recording::read_recording(out());
   ASSERT_EQ(recording.frames.size(), 4u);
   EXPECT_EQ(recording.frames[2].t_ns, 800'000'000);
   EXPECT_DOUBLE_EQ(recording.frames[2].motion.dt_s, 0.6);
@@ -152,7 +152,7 @@ TEST_F(Replay, MistakesAreToldInOneLineBeforeAnyOutput) {
 
 TEST_F(Replay, PicturesWithoutCornersHaveNoFiguresRatherThanWrongOnes) {
   for (int k = 0; k < 3; ++k) {
-    bench::write_picture(pictures() / (std::to_string(k) + ".png"), cv::Mat1b(60, 80, 90));
+    write_picture(pictures() / (std::to_string(k) + ".png"), cv::Mat1b(60, 80, 90));
   }
   const CommandResult result = replay({"--no-video"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -161,4 +161,4 @@ TEST_F(Replay, PicturesWithoutCornersHaveNoFiguresRatherThanWrongOnes) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

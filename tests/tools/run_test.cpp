@@ -22,7 +22,7 @@
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,7 +49,7 @@ class Run : public testing::Test {
     return arguments;
   }
   nlohmann::json metrics(const fs::path& result) {
-    return nlohmann::json::parse(read(folder_.path() / result / kMetricsFile));
+    return nlohmann::json::parse(read(folder_.path() / result / scoring::kMetricsFile));
   }
 
   const TemporaryFolder folder_;
@@ -74,12 +74,12 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
                                                  "layers.jsonl", "truth.jsonl", "detector.json",
                                                  "run.json", "video.mp4", "warnings.json"}));
 
-  EXPECT_EQ(lines(read(out / kFramesFile)), 1 + kFrames);
-  const Recording recording = read_recording(out);
+  EXPECT_EQ(lines(read(out / scoring::kFramesFile)), 1 + kFrames);
+  const recording::Recording recording = recording::read_recording(out);
   ASSERT_EQ(recording.frames.size(), std::size_t{kFrames});
   EXPECT_EQ(recording.scenario, name);
   EXPECT_FALSE(recording.objects.empty());
-  for (const FrameRecord& frame : recording.frames) {
+  for (const recording::FrameRecord& frame : recording.frames) {
     EXPECT_GT(frame.corners_px.size(), 20u) << "frame " << frame.index;
     EXPECT_FALSE(frame.object_truth.empty()) << "frame " << frame.index;
     EXPECT_EQ(frame.signatures.size(), frame.corners_px.size()) << "frame " << frame.index;
@@ -87,7 +87,7 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
 
   // Scored again from its files, the run has bitwise equal figures, except times.
   const nlohmann::json stored = metrics(fs::path("out") / name);
-  for (const auto& [metric, figure] : score(recording)) {
+  for (const auto& [metric, figure] : scoring::score(recording)) {
     ASSERT_TRUE(stored.contains(metric)) << metric;
     if (metric.starts_with("time.process")) {
       EXPECT_TRUE(stored[metric].is_null()) << "the filter is none: " << metric;
@@ -100,7 +100,7 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
     }
   }
 
-  const auto video = open_video(out / "video.mp4");
+  const auto video = output::open_video(out / "video.mp4");
   ASSERT_TRUE(video->isOpened());
   cv::Mat picture;
   int pictures = 0;
@@ -123,14 +123,14 @@ TEST_F(Run, AReportIsAPageOfTheRunWithItsVideo) {
   EXPECT_TRUE(data["scenarios"][0]["runs"][0]["events"].is_array());
   EXPECT_EQ(data["sets"], nlohmann::json{"frames=3"});
   EXPECT_EQ(data["video"].get<std::string>().size(),
-            (fs::file_size(folder_.path() / "out" / kVideoFile) + 2) / 3 * 4);
+            (fs::file_size(folder_.path() / "out" / output::kVideoFile) + 2) / 3 * 4);
   EXPECT_NE(data["version"].get<std::string>().find(" ("), std::string::npos) << "with the commit";
 }
 
 TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
   ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
   ASSERT_EQ(run(brief({"--out", "b"})).exit_code, 0);
-  for (const char* file : {kLayersFile, kTruthFile}) {
+  for (const char* file : {recording::kLayersFile, recording::kTruthFile}) {
     const std::string a = read(folder_.path() / "a" / file);
     EXPECT_GT(a.size(), 10'000u);
     EXPECT_TRUE(a == read(folder_.path() / "b" / file)) << file;
@@ -193,7 +193,7 @@ TEST_F(Run, FindsAScenarioOfTheProjectByItsNameUnlessAFileHereIsCalledSo) {
   EXPECT_NE(found.err.find("night is " + (kScenarios / "suite" / "night.yaml").string() + "\n"),
             std::string::npos)
       << found.err;
-  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "night" / kMetricsFile));
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "night" / scoring::kMetricsFile));
   for (const char* name : {"night.yaml", "night"}) {
     std::ofstream(folder_.path() / name) << "scene: lab\n";
     const CommandResult unclear = run({"night"});
@@ -207,9 +207,9 @@ TEST_F(Run, FindsAScenarioOfTheProjectByItsNameUnlessAFileHereIsCalledSo) {
 TEST_F(Run, AnotherSeedIsAnotherRun) {
   ASSERT_EQ(run(brief({"--out", "a", "--seed", "1"})).exit_code, 0);
   ASSERT_EQ(run(brief({"--out", "b", "--seed", "2"})).exit_code, 0);
-  EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
-               read(folder_.path() / "b" / kLayersFile));
-  EXPECT_EQ(read_recording(folder_.path() / "b").seed, 2u);
+  EXPECT_FALSE(read(folder_.path() / "a" / recording::kLayersFile) ==
+               read(folder_.path() / "b" / recording::kLayersFile));
+  EXPECT_EQ(recording::read_recording(folder_.path() / "b").seed, 2u);
 }
 
 TEST_F(Run, EgoMotionIsExactOnlyWhereTheScenarioSaysSo) {
@@ -223,8 +223,8 @@ TEST_F(Run, EgoMotionIsExactOnlyWhereTheScenarioSaysSo) {
 TEST_F(Run, AFilterSettingReachesTheFilter) {
   ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
   ASSERT_EQ(run(brief({"--out", "b", "--set", "filter.hypotheses.noise=2"})).exit_code, 0);
-  EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
-               read(folder_.path() / "b" / kLayersFile));
+  EXPECT_FALSE(read(folder_.path() / "a" / recording::kLayersFile) ==
+               read(folder_.path() / "b" / recording::kLayersFile));
 }
 
 TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
@@ -237,23 +237,24 @@ TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
   };
   ASSERT_EQ(with({"--out", "plain"}).exit_code, 0);
   ASSERT_EQ(with({"--out", "told", "--events"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder_.path() / "plain" / kEventsFile));
-  EXPECT_EQ(read(folder_.path() / "plain" / kLayersFile),
-            read(folder_.path() / "told" / kLayersFile));
+  EXPECT_FALSE(fs::exists(folder_.path() / "plain" / scoring::kEventsFile));
+  EXPECT_EQ(read(folder_.path() / "plain" / recording::kLayersFile),
+            read(folder_.path() / "told" / recording::kLayersFile));
 
-  const std::vector<Event> events = read_events(folder_.path() / "told" / kEventsFile);
+  const std::vector<scoring::ScoredEvent> events =
+      scoring::read_events(folder_.path() / "told" / scoring::kEventsFile);
   ASSERT_FALSE(events.empty());
   double missed = 0;
-  for (const Event& event : events) {
+  for (const scoring::ScoredEvent& event : events) {
     int explained = 0;
     for (const auto& [reason, corners] : event.reasons) explained += corners;
     for (const auto& [step, corners] : event.steps) explained += corners;
     EXPECT_EQ(explained, event.corners);
-    EXPECT_EQ(event.frames > 0, family_of(event.kind) == EventFamily::squares);
+    EXPECT_EQ(event.frames > 0, scoring::family_of(event.kind) == scoring::EventFamily::squares);
     // before, in and after the event; at an end of the run one of them does not exist
     const bool is_at_an_end = event.first_frame == 0 || event.last_frame == 15;
     EXPECT_GE(event.views.size(), is_at_an_end ? 2u : 3u);
-    for (const EventView& view : event.views) {
+    for (const scoring::EventView& view : event.views) {
       EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // start of every JPEG
     }
     missed += event.counted_corners > 0 ? event.corners : 0;
@@ -297,7 +298,7 @@ TEST_F(Run, TwoIntoOneFolderAtATimeLeaveOneOfThemWhole) {
   Command other(arguments, {.folder = folder_.path()});
   EXPECT_EQ(one.wait().exit_code, 0);
   EXPECT_EQ(other.wait().exit_code, 0);
-  EXPECT_EQ(read_recording(folder_.path() / "out" / "crossing").frames.size(), 4u);
+  EXPECT_EQ(recording::read_recording(folder_.path() / "out" / "crossing").frames.size(), 4u);
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
 }
 
@@ -315,7 +316,7 @@ class Again : public Run {
   }
   /// Compares everything except times.
   void expect_same(const fs::path& one, const fs::path& other) {
-    for (const char* name : {kLayersFile, kTruthFile, kEventsFile}) {
+    for (const char* name : {recording::kLayersFile, recording::kTruthFile, scoring::kEventsFile}) {
       EXPECT_TRUE(file(one, name) == file(other, name)) << name;
     }
     const nlohmann::json figures = metrics(one), others = metrics(other);
@@ -340,10 +341,11 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
                                            kWithoutGaps, "--recorded", "first", "--out", "again"});
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(again.err, "");
-  EXPECT_FALSE(file("first", kLayersFile) == file("live", kLayersFile))
+  EXPECT_FALSE(file("first", recording::kLayersFile) == file("live", recording::kLayersFile))
       << "the setting does not show";
   expect_same("live", "again");
-  for (const char* copied : {kTruthFile, kPicturesFile}) {  // a user may change one of them
+  for (const char* copied :
+       {recording::kTruthFile, output::kPicturesFile}) {  // a user may change one of them
     EXPECT_FALSE(
         fs::equivalent(folder_.path() / "first" / copied, folder_.path() / "again" / copied));
   }
@@ -367,7 +369,7 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
 TEST_F(Again, AVideoIsOfThePicturesThatWereKept) {
   ASSERT_EQ(approaching({"--events", "--no-video", "--out", "first"}).exit_code, 0);
   ASSERT_EQ(approaching({"--recorded", "first", "--out", "again"}).exit_code, 0);
-  const auto video = open_video(folder_.path() / "again" / kVideoFile);
+  const auto video = output::open_video(folder_.path() / "again" / output::kVideoFile);
   cv::Mat picture;
   int pictures = 0;
   for (; video->read(picture); ++pictures) {
@@ -386,10 +388,11 @@ TEST_F(Again, WithoutPicturesThereAreEventsButNoVideo) {
   ASSERT_EQ(
       approaching({"--no-video", "--events", "--recorded", "first", "--out", "again"}).exit_code,
       0);
-  const std::vector<Event> events = read_events(folder_.path() / "again" / kEventsFile);
+  const std::vector<scoring::ScoredEvent> events =
+      scoring::read_events(folder_.path() / "again" / scoring::kEventsFile);
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.front().views.at(0).jpeg_base64, "");
-  EXPECT_FALSE(fs::exists(folder_.path() / "again" / kPicturesFile));
+  EXPECT_FALSE(fs::exists(folder_.path() / "again" / output::kPicturesFile));
 }
 
 TEST_F(Again, FramesWithoutSignaturesAreToldAndTheFilterGoesByPlaces) {
@@ -402,7 +405,8 @@ TEST_F(Again, FramesWithoutSignaturesAreToldAndTheFilterGoesByPlaces) {
             "warning: first does not say what the filter saw below circles, so that bodies that "
             "approach at constant speed are not found; leave out --recorded to have it looked "
             "at\n");
-  for (const FrameRecord& frame : read_recording(folder_.path() / "again").frames) {
+  for (const recording::FrameRecord& frame :
+       recording::read_recording(folder_.path() / "again").frames) {
     EXPECT_TRUE(frame.signatures.empty());
     EXPECT_EQ(frame.verdicts.size(), frame.corners_px.size());
   }
@@ -449,29 +453,31 @@ TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
   const auto rewrite = [&](const char* name, const std::string& text) {
     std::ofstream(first / name, std::ios::binary) << text;
   };
-  const std::string pictures = file("first", kPicturesFile), truth = file("first", kTruthFile);
+  const std::string pictures = file("first", output::kPicturesFile),
+                    truth = file("first", recording::kTruthFile);
 
-  rewrite(kPicturesFile, pictures.substr(0, pictures.size() / 2));
+  rewrite(output::kPicturesFile, pictures.substr(0, pictures.size() / 2));
   refused("pictures.mjpeg: not a JPEG picture at byte ");
-  rewrite(kPicturesFile, pictures + pictures);
+  rewrite(output::kPicturesFile, pictures + pictures);
   refused("pictures.mjpeg has 8 pictures of 4 frames");
-  rewrite(kPicturesFile, "");
+  rewrite(output::kPicturesFile, "");
   refused("pictures.mjpeg has 0 pictures of 4 frames");
-  rewrite(kPicturesFile, sim::encode_jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90) + pictures);
+  rewrite(output::kPicturesFile,
+          sim::encode_jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90) + pictures);
   refused("picture 0 has 160 x 120 pixels, and one of a camera of 640 x 480 has 640 x 480; run");
   const std::size_t frame = pictures.find("\xff\xc0");
   ASSERT_NE(frame, std::string::npos);
-  rewrite(kPicturesFile, std::string(pictures).replace(frame + 5, 4, "\x7d\0\x7d\0", 4));
+  rewrite(output::kPicturesFile, std::string(pictures).replace(frame + 5, 4, "\x7d\0\x7d\0", 4));
   refused(
       "picture 0 has 32000 x 32000 pixels, and one of a camera of 640 x 480 has 640 x 480; run");
-  fs::remove(first / kPicturesFile);
+  fs::remove(first / output::kPicturesFile);
 
   // As written by a version without this entry.
   const std::size_t world = truth.find(",\"world\":{"), end = truth.find('}', world);
   ASSERT_NE(world, std::string::npos);
-  rewrite(kTruthFile, truth.substr(0, world) + truth.substr(end + 1));
+  rewrite(recording::kTruthFile, truth.substr(0, world) + truth.substr(end + 1));
   refused("it does not say what world it is of");
-  rewrite(kTruthFile, truth.substr(0, truth.size() / 2));
+  rewrite(recording::kTruthFile, truth.substr(0, truth.size() / 2));
   refused("truth.jsonl:");
 }
 
@@ -572,7 +578,8 @@ TEST_F(Run, DetectorBesideOthersSaysWhatItSaysAlone) {
   for (const auto& [name, folder] :
        {std::pair{"lcs", "own"}, {"klt", "klt"}, {"lcs:lab", "lab/here"}}) {
     ASSERT_EQ(run(brief({"--set", "frames=8", "--detector", name, "--out", "alone"})).exit_code, 0);
-    for (const char* file : {kLayersFile, kTruthFile, kWarningsFile}) {
+    for (const char* file :
+         {recording::kLayersFile, recording::kTruthFile, recording::kWarningsFile}) {
       EXPECT_TRUE(read(folder_.path() / folder / file) == read(folder_.path() / "alone" / file))
           << name << " " << file;
     }
@@ -589,7 +596,8 @@ TEST_F(Run, TwoThreadsWriteTheFilesOfOne) {
       ASSERT_EQ(result.exit_code, 0) << result.err;
     }
     for (const char* file :
-         {kLayersFile, kTruthFile, kWarningsFile, kEventsFile, kPicturesFile, kVideoFile}) {
+         {recording::kLayersFile, recording::kTruthFile, recording::kWarningsFile,
+          scoring::kEventsFile, output::kPicturesFile, output::kVideoFile}) {
       const std::string one = read(folder_.path() / "by1" / file);
       EXPECT_FALSE(one.empty()) << file;
       EXPECT_TRUE(one == read(folder_.path() / "by2" / file)) << file;
@@ -640,7 +648,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, RunInterrupted,
 
 TEST_P(RunInterrupted, LeavesTheEarlierResultAsItWasAndExitsWith130) {
   ASSERT_EQ(run(brief()).exit_code, 0);
-  const std::string before = read(folder_.path() / "out" / "crossing" / kLayersFile);
+  const std::string before = read(folder_.path() / "out" / "crossing" / recording::kLayersFile);
 
   for (const char* threads : {"1", "2"}) {
     Command command({"run", kCrossing, "--set", "frames=1000", "--threads", threads},
@@ -658,7 +666,7 @@ TEST_P(RunInterrupted, LeavesTheEarlierResultAsItWasAndExitsWith130) {
     EXPECT_NE(result.err.find(is_about_a_write ? "cannot write" : "interrupted"), std::string::npos)
         << result.err;
     EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
-    EXPECT_EQ(read(folder_.path() / "out" / "crossing" / kLayersFile), before);
+    EXPECT_EQ(read(folder_.path() / "out" / "crossing" / recording::kLayersFile), before);
   }
 }
 
@@ -719,4 +727,4 @@ TEST(Program, SaysWhatIsMeantByMistakesOnTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -12,7 +12,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,7 +99,7 @@ TEST_F(Score, ReportsVerdictsOnNoCorner) {
 
 TEST_F(Score, WithoutFramesCsvHasNoTimes) {
   make_run("lcs", "frames=4");
-  fs::remove(folder_.path() / "run" / kFramesFile);
+  fs::remove(folder_.path() / "run" / scoring::kFramesFile);
   ASSERT_EQ(lcs({"score", "run", "--out", "again.json"}).exit_code, 0);
   EXPECT_TRUE(json("again.json")["time.filter_ms_median"].is_null());
   EXPECT_FALSE(json("again.json")["dimension.mean"].is_null());
@@ -280,4 +280,4 @@ TEST_F(Score, AFullDiskIsNoticedAndLeavesTheEarlierFile) {
 }
 
 }  // namespace
-}  // namespace lcs::bench
+}  // namespace lcs::test

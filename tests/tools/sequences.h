@@ -8,7 +8,7 @@
 
 #include "tests/tools/files.h"
 
-namespace lcs::bench {
+namespace lcs::test {
 
 /// Whether some process has finished a frame: its journal has a row behind the three lines of the
 /// head. \param unfinished the folder FOLDER.unfinished.
@@ -23,4 +23,4 @@ inline bool has_frame(const std::filesystem::path& unfinished) {
   return false;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -23,10 +23,10 @@ namespace lcs::suite {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::children_of;
-using bench::CommandResult;
-using bench::entries;
-using bench::read;
+using test::children_of;
+using test::CommandResult;
+using test::entries;
+using test::read;
 
 class Suite : public testing::Test {
  protected:
@@ -40,7 +40,7 @@ class Suite : public testing::Test {
   }
   CommandResult run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"suite", "scenarios"});
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   }
   SuiteResult result(const fs::path& out = "out/suite") {
     return read_suite(folder_.path() / out / kSuiteFile);
@@ -50,7 +50,7 @@ class Suite : public testing::Test {
     return folder_.path() / "out" / "suite" / scenario.runs.at(place).folder;
   }
 
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const fs::path out_ = folder_.path() / "out" / "suite";
 };
 
@@ -79,7 +79,8 @@ TEST_F(Suite, RunsEveryScenarioOfAFolderWithItsSeedsAndSumsThemUp) {
     EXPECT_EQ(near.runs[i].seed, 7 + i);
     EXPECT_EQ(near.runs[i].outcome, Outcome::passed);
     EXPECT_GT(near.runs[i].wall_s, 0);
-    EXPECT_EQ(near.runs[i].metrics, bench::read_metrics(run_folder(near, i) / bench::kMetricsFile));
+    EXPECT_EQ(near.runs[i].metrics,
+              scoring::read_metrics(run_folder(near, i) / scoring::kMetricsFile));
   }
   for (const char* part : {"near", "far", "= short (2, 0 with F1)", "4 runs without an error",
                            "4 runs of 2 scenarios: 4 passed, 0 failed"}) {
@@ -94,7 +95,7 @@ TEST_F(Suite, AFilterAGroupAndANamedFileChooseWhatIsRun) {
   scenario("endless", "groups: [long]\n");
   const auto listed = [&](std::vector<std::string> arguments) {
     arguments.emplace_back("--list");
-    return bench::run_lcs(arguments, {.folder = folder_.path()}).out;
+    return test::run_lcs(arguments, {.folder = folder_.path()}).out;
   };
   const auto has = [](const std::string& text, const char* name) {
     return text.find(name) != std::string::npos;
@@ -150,7 +151,7 @@ TEST_F(Suite, ACriterionOverSeedsIsJudgedOnceForAllOfThem) {
             std::string::npos)
       << command.err;
   EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
-  const CommandResult single = bench::run_lcs(
+  const CommandResult single = test::run_lcs(
       {"run", "scenarios/near.yaml", "--no-video", "--quiet"}, {.folder = folder_.path()});
   EXPECT_EQ(single.exit_code, 0);
   EXPECT_NE(single.err.find("not judged: criteria over seeds"), std::string::npos) << single.err;
@@ -589,7 +590,7 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
   ScenarioResult& scenario = suite.scenarios.emplace_back();
   scenario.name = "a<b & \"c\"";
   scenario.runs.emplace_back().error = "bad <byte> \xff, control \x1b[K, letter \xc3\xa9\nmore";
-  const bench::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_junit(folder.path() / kJunitFile, suite);
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.LoadFile((folder.path() / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
@@ -608,11 +609,11 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
 class SuiteProcesses : public Suite {
  protected:
   /// A suite whose runs would take minutes, once two of them are under way.
-  std::unique_ptr<bench::Command> begin_endless() {
+  std::unique_ptr<test::Command> begin_endless() {
     for (const char* name : {"a", "b", "c"}) scenario(name, "", 100'000);
-    auto command = std::make_unique<bench::Command>(
+    auto command = std::make_unique<test::Command>(
         std::vector<std::string>{"suite", "scenarios", "--jobs", "2", "--seeds", "1"},
-        bench::CommandOptions{.folder = folder_.path()});
+        test::CommandOptions{.folder = folder_.path()});
     while (command->is_running() && children_of(command->pid()).size() < 2) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -646,7 +647,7 @@ TEST_P(SuiteInterrupted, EndsItsChildrenLeavesTheEarlierSuiteAndExitsWith130) {
 TEST_P(SuiteInterrupted, KeepsFinishedRunsAndGoesOnByTheSameCommand) {
   for (const char* name : {"a", "b", "c"}) scenario(name, "", name[0] == 'a' ? 4 : 100'000);
   const std::vector<std::string> arguments{"suite", "scenarios", "--jobs", "3", "--seeds", "1"};
-  bench::Command command(arguments, {.folder = folder_.path()});
+  test::Command command(arguments, {.folder = folder_.path()});
   const fs::path kept = folder_.path() / "out" / "suite.unfinished" / "in";
   while (command.is_running() && !fs::exists(kept / "runs/a/seed-1/metrics.json")) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -683,7 +684,7 @@ TEST_F(SuiteProcesses, PartsThatWereKilledAndWentOnMergeToTheWholeSuite) {
     std::vector<std::string> arguments = with({"--shard", part + "/3", "--out", "part" + part});
     std::vector<std::string> all{"suite", "scenarios"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    bench::Command command(all, {.folder = folder_.path()});
+    test::Command command(all, {.folder = folder_.path()});
     const fs::path runs = folder_.path() / ("part" + part + ".unfinished") / "in/runs";
     const auto is_whole = [&] {
       if (!fs::exists(runs)) return false;
@@ -701,7 +702,7 @@ TEST_F(SuiteProcesses, PartsThatWereKilledAndWentOnMergeToTheWholeSuite) {
   }
   const auto merge = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "merge");
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   };
   const CommandResult lacks = merge({"part1", "part3"});
   EXPECT_EQ(lacks.exit_code, 2);
@@ -731,7 +732,7 @@ TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {
   while (command->is_running()) {
     for (const pid_t child : children_of(command->pid())) {
       // Not a child of the leak sanitizer, whose command line equals its parent's.
-      const bool is_run = bench::command_line_of(child).find("--events") != std::string::npos;
+      const bool is_run = test::command_line_of(child).find("--events") != std::string::npos;
       if (is_run) ::kill(child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -747,8 +748,8 @@ TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {
 }
 
 TEST(SuiteHelp, TeachesExamplesFilesAndExitCodes) {
-  const bench::TemporaryFolder folder;
-  const CommandResult help = bench::run_lcs({"suite", "--help"}, {.folder = folder.path()});
+  const test::TemporaryFolder folder;
+  const CommandResult help = test::run_lcs({"suite", "--help"}, {.folder = folder.path()});
   EXPECT_EQ(help.exit_code, 0);
   for (const char* part : {"Examples", "suite.json", "junit.xml", "Exit codes", "--jobs", "130"}) {
     EXPECT_NE(help.out.find(part), std::string::npos) << part << " in\n" << help.out;

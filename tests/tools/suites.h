@@ -9,7 +9,7 @@
 
 namespace lcs::suite {
 
-inline RunResult run_with(std::uint64_t seed, bench::Metrics metrics) {
+inline RunResult run_with(std::uint64_t seed, scoring::Metrics metrics) {
   RunResult run;
   run.seed = seed;
   run.outcome = Outcome::passed;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace lcs::bench {
+namespace lcs::test {
 
 class TemporaryFolder {
  public:
@@ -27,4 +27,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::test

@@ -17,8 +17,8 @@
 namespace lcs::tools {
 namespace {
 
-using bench::Command;
-using bench::CommandResult;
+using test::Command;
+using test::CommandResult;
 
 constexpr int kNone = -1;
 
@@ -62,17 +62,17 @@ class ViewCommand : public testing::Test {
     return {"run",   LCS_SCENARIOS_DIR "/crossing.yaml", "--view", "--frames", "4", "--no-video",
             "--set", "camera.size=[160, 120]",           "--out",  "out"};
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(ViewCommand, WithoutADisplayOneLineSaysSo) {
-  const CommandResult unnamed = bench::run_lcs(command(), {.folder = folder_.path()});
+  const CommandResult unnamed = test::run_lcs(command(), {.folder = folder_.path()});
   EXPECT_EQ(unnamed.exit_code, 2);
   EXPECT_EQ(unnamed.err,
             "lcs: --view: there is no display (DISPLAY and WAYLAND_DISPLAY are not set); leave it "
             "out: video.mp4 shows the same\n");
   setenv("DISPLAY", ":4711", 1);
-  const CommandResult gone = bench::run_lcs(command(), {.folder = folder_.path()});
+  const CommandResult gone = test::run_lcs(command(), {.folder = folder_.path()});
   EXPECT_EQ(gone.exit_code, 2) << gone.err;
   EXPECT_NE(gone.err.find("no window can be opened on the display"), std::string::npos) << gone.err;
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));

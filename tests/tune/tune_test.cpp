@@ -30,7 +30,7 @@ namespace lcs::tune {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::TemporaryFolder;
+using test::TemporaryFolder;
 
 const std::vector<std::string> kKeys{"hypotheses.prior", "hypotheses.coupling",
                                      "circle.min_members"};
@@ -70,7 +70,7 @@ struct Search {
     return {.axes = axes_of(start, keys), .evaluations = evaluations, .seed = seed};
   }
   Evaluations journal(const fs::path& file) const {
-    bench::Provenance provenance{.facts = {{"subject", subject}}};
+    files::Provenance provenance{.facts = {{"subject", subject}}};
     add_facts(provenance.facts, options());
     return {file, provenance, keys};
   }
@@ -115,7 +115,7 @@ TEST(Search, GoesOnWhereItWasWithTheSameEnd) {
   Hill rest;
   EXPECT_EQ(values(climb(journal, rest)), expected);
   EXPECT_EQ(rest.calls, whole.calls - 10) << "those before the failure are not asked again";
-  EXPECT_EQ(bench::read(journal), bench::read(folder.path() / "whole.csv"));
+  EXPECT_EQ(test::read(journal), test::read(folder.path() / "whole.csv"));
   Hill none;
   EXPECT_EQ(values(climb(journal, none)), expected);
   EXPECT_EQ(none.calls, 0);
@@ -126,7 +126,7 @@ TEST(SearchJournal, OfAnotherSearchIsRefusedWithWhatDiffersAndLeftAsItWas) {
   const fs::path file = folder.path() / "journal.csv";
   Hill hill;
   climb(file, hill, {.evaluations = 3});
-  const std::string before = bench::read(file);
+  const std::string before = test::read(file);
   Search moved;
   set(moved.start, kKeys[0], "0.05");
   const std::pair<Search, std::vector<std::string>> cases[] = {
@@ -139,14 +139,14 @@ TEST(SearchJournal, OfAnotherSearchIsRefusedWithWhatDiffersAndLeftAsItWas) {
       {{.keys = {kKeys[1], kKeys[0], kKeys[2]}}, {"keys differs ("}},
   };
   for (const auto& [search, parts] : cases) {
-    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    const std::string message = test::refusal_of([&] { search.journal(file); });
     for (const std::string& part : parts) {
       EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
     }
     EXPECT_NE(message.find("choose another folder with --out, or remove the file"),
               std::string::npos)
         << message;
-    EXPECT_EQ(bench::read(file), before);
+    EXPECT_EQ(test::read(file), before);
   }
 }
 
@@ -156,14 +156,14 @@ TEST(SearchJournal, WithAnyOtherByteIsRefusedAtItsLine) {
   Hill hill;
   const Search search{.evaluations = 3};
   climb(file, hill, search);
-  const std::string before = bench::read(file);
+  const std::string before = test::read(file);
   for (std::size_t i = 0; i + 1 < before.size(); ++i) {
     std::string changed = before;
     changed[i] = static_cast<char>(changed[i] ^ 1);
-    bench::write(file, changed);
-    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    test::write(file, changed);
+    const std::string message = test::refusal_of([&] { search.journal(file); });
     EXPECT_TRUE(message.starts_with(file.string() + ":")) << i << ": " << message;
-    EXPECT_EQ(bench::read(file), changed);
+    EXPECT_EQ(test::read(file), changed);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(SearchJournal, WithARowThatItHasNotWrittenIsRefusedAtItsLine) {
   Hill hill;
   const Search search{.evaluations = 3};
   climb(file, hill, search);
-  const std::string before = bench::read(file);
+  const std::string before = test::read(file);
   const std::string last = before.substr(before.rfind('\n', before.size() - 2) + 1);
   const auto lines = std::count(before.begin(), before.end(), '\n');
   for (const std::string& row :
@@ -185,11 +185,11 @@ TEST(SearchJournal, WithARowThatItHasNotWrittenIsRefusedAtItsLine) {
         std::string("0.0397,nan,xx,,9e999,abc\n"), std::string("\n"), std::string(9000, ',') + "\n",
         "0" + last, last.substr(0, last.size() - 2) + "\n", " " + last,
         last.substr(0, last.size() - 1) + "\r\n", "1," + last, std::string("\0\n", 2)}) {
-    bench::write(file, before + row);
-    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    test::write(file, before + row);
+    const std::string message = test::refusal_of([&] { search.journal(file); });
     EXPECT_TRUE(message.starts_with(file.string() + ":" + std::to_string(lines + 1) + ": "))
         << row << message;
-    EXPECT_EQ(bench::read(file), before + row);
+    EXPECT_EQ(test::read(file), before + row);
   }
 }
 
@@ -199,18 +199,18 @@ TEST(SearchJournal, CutOffAnywhereKeepsItsWholeRows) {
   const Search search{.evaluations = 4};
   Hill hill;
   climb(file, hill, search);
-  const std::string all = bench::read(file);
+  const std::string all = test::read(file);
   const std::size_t head = all.find("check\n") + 6;
   const auto rows_in = [&](const std::string& text) {
     return std::count(text.begin() + static_cast<std::ptrdiff_t>(head), text.end(), '\n');
   };
   for (std::size_t size = 0; size < all.size(); ++size) {
     const std::string kept = all.substr(0, size);
-    bench::write(file, kept);
+    test::write(file, kept);
     Hill rest;
     climb(file, rest, search);
     EXPECT_EQ(rest.calls, rows_in(all) - (size < head ? 0 : rows_in(kept))) << size;
-    EXPECT_EQ(bench::read(file), all);
+    EXPECT_EQ(test::read(file), all);
   }
 }
 
@@ -218,20 +218,20 @@ TEST(SearchJournal, IsNeverWrittenThroughWhatIsNoPlainFileOfItsOwn) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "evaluations.csv", other = folder.path() / "other";
   const auto refused = [&](const char* what) {
-    const std::string message = bench::refusal_of([&] { Search{}.journal(file); });
+    const std::string message = test::refusal_of([&] { Search{}.journal(file); });
     EXPECT_TRUE(message.starts_with(file.string())) << what << ": " << message;
     EXPECT_NE(message.find(what), std::string::npos) << message;
   };
   Hill hill;
   climb(other, hill, {.evaluations = 1});
-  const std::string journal = bench::read(other);
+  const std::string journal = test::read(other);
   for (const fs::path& target : {other, fs::path("/dev/zero"), folder.path() / "none"}) {
     fs::create_symlink(target, file);
     refused("this is a link");
     EXPECT_TRUE(fs::is_symlink(file));
     fs::remove(file);
   }
-  EXPECT_EQ(bench::read(other), journal);
+  EXPECT_EQ(test::read(other), journal);
   ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
   refused("this is a pipe");
   EXPECT_TRUE(fs::is_fifo(file));
@@ -240,9 +240,9 @@ TEST(SearchJournal, IsNeverWrittenThroughWhatIsNoPlainFileOfItsOwn) {
   refused("this is a folder");
   fs::remove(file);
   for (const char* text : {"my notes\n", "my notes", "# lcs tune: an older one\nf1\n"}) {
-    bench::write(file, text);
+    test::write(file, text);
     refused("does not begin with");
-    EXPECT_EQ(bench::read(file), text);
+    EXPECT_EQ(test::read(file), text);
   }
 }
 
@@ -255,7 +255,7 @@ TEST(Search, RefusesWhatIsNoNumberAboveNought) {
         {{""}, "the nearest is"},
         {{kKeys[0], kKeys[1], kKeys[0]}, "hypotheses.prior is given twice"}}) {
     const std::string message =
-        bench::refusal_of<std::invalid_argument>([&] { axes_of(start, keys); });
+        test::refusal_of<std::invalid_argument>([&] { axes_of(start, keys); });
     EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
@@ -271,16 +271,16 @@ class TuneCommand : public testing::Test {
                                        "--out",   suite().string(),
                                        "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto made = bench::run_lcs(arguments, {folder_.path()});
+    const auto made = test::run_lcs(arguments, {folder_.path()});
     ASSERT_LE(made.exit_code, 1) << made.err;  // the criteria do not apply to 16 frames
   }
   fs::path suite() const { return folder_.path() / "suite"; }
   fs::path out() const { return folder_.path() / "tune"; }
-  bench::CommandResult tune(const std::vector<std::string>& more) const {
+  test::CommandResult tune(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"tune", suite().string(), "--out", out().string(),
                                        "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return bench::run_lcs(arguments, {folder_.path()});
+    return test::run_lcs(arguments, {folder_.path()});
   }
 
   TemporaryFolder folder_;
@@ -293,7 +293,7 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
       tune({"--keys", "hypotheses.prior", "--evaluations", "4", "--validate", copy.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto f1 =
-      bench::value(suite::read_suite(suite()).scenarios.front().runs.front().metrics, "rebel.f1");
+      scoring::value(suite::read_suite(suite()).scenarios.front().runs.front().metrics, "rebel.f1");
   std::ifstream journal(out() / "evaluations.csv");
   std::string line;
   while (std::getline(journal, line) && !line.ends_with(",check")) {
@@ -304,12 +304,12 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
   EXPECT_EQ(std::stod(line), number(Parameters{}, "hypotheses.prior"));
   std::getline(cells, line, ',');
   EXPECT_DOUBLE_EQ(std::stod(line), f1.value()) << "the first evaluation is of what there is";
-  const std::string record = bench::read(out() / "record.md");
+  const std::string record = test::read(out() / "record.md");
   for (const char* part : {"lcs tune", "--evaluations 4", "--validate", "crossing", "before",
                            "after", "hypotheses.prior"}) {
     EXPECT_NE(record.find(part), std::string::npos) << part;
   }
-  const std::string preset_text = bench::read(out() / "learnt.h");
+  const std::string preset_text = test::read(out() / "learnt.h");
   for (const auto& [key, value] : kLearnt) {
     EXPECT_NE(preset_text.find(std::string("{\"") + key + "\", "), std::string::npos)
         << key << " is learnt, whether it was searched for or not";
@@ -326,7 +326,7 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
 TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItWas) {
   const std::vector<std::string> command{"--keys", "hypotheses.prior", "--evaluations", "2"};
   const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
-    const std::string before = bench::read(out() / kEvaluationsFile);
+    const std::string before = test::read(out() / kEvaluationsFile);
     std::vector<std::string> arguments = command;
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto result = tune(arguments);
@@ -336,7 +336,7 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
          {what, std::string(kEvaluationsFile), std::string("remove the file")}) {
       EXPECT_NE(result.err.find(part), std::string::npos) << part << ": " << result.err;
     }
-    EXPECT_EQ(bench::read(out() / kEvaluationsFile), before);
+    EXPECT_EQ(test::read(out() / kEvaluationsFile), before);
   };
   ASSERT_EQ(tune(command).exit_code, 0);
   refused({"--seed", "2"}, "seed differs ('1' and '2')");
@@ -346,14 +346,14 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
   const fs::path rebuilt = folder_.path() / "lcs", said = folder_.path() / "said";
   fs::copy_file(LCS_PROGRAM, rebuilt);
   std::ofstream(rebuilt, std::ios::app) << "x";
-  const std::string before = bench::read(out() / kEvaluationsFile);
+  const std::string before = test::read(out() / kEvaluationsFile);
   const std::string line =
       fmt::format("{} tune {} --out {} --quiet --keys hypotheses.prior --evaluations 2 2>{}",
                   rebuilt.string(), suite().string(), out().string(), said.string());
   EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 2);
-  EXPECT_NE(bench::read(said).find("other work: program_sha256 differs"), std::string::npos)
-      << bench::read(said);
-  EXPECT_EQ(bench::read(out() / kEvaluationsFile), before);
+  EXPECT_NE(test::read(said).find("other work: program_sha256 differs"), std::string::npos)
+      << test::read(said);
+  EXPECT_EQ(test::read(out() / kEvaluationsFile), before);
 
   // The suite generated again with another speed.
   const fs::path old = folder_.path() / "old";
@@ -367,45 +367,45 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
   for (const char* name : {"layers.jsonl.gz", "truth.jsonl.gz", "camera.json"}) {
     const fs::path file =
         suite() / suite::read_suite(suite()).scenarios.front().runs.front().folder / name;
-    const std::string bytes = bench::read(file);
+    const std::string bytes = test::read(file);
     std::string changed = input::read_file(file, {input::kGibibyte, ""});
     changed.insert(changed.find(','), " ");
     const bool is_gzip = file.extension() == ".gz";
-    bench::TextFile text(is_gzip ? fs::path(file).replace_extension() : file, is_gzip);
+    files::TextFile text(is_gzip ? fs::path(file).replace_extension() : file, is_gzip);
     text.write(changed);
     text.close();
     refused({}, std::string(name) + " differs");
-    bench::write(file, bytes);
+    test::write(file, bytes);
   }
 }
 
 TEST_F(TuneCommand, AFullDiskLosesNoRow) {
   const auto asked = [&](const char* evaluations, std::optional<std::size_t> largest) {
-    return bench::run_lcs({"tune", suite().string(), "--out", out().string(), "--quiet", "--keys",
-                           "hypotheses.prior,hypotheses.coupling", "--evaluations", evaluations},
-                          {.folder = folder_.path(), .largest_file = largest});
+    return test::run_lcs({"tune", suite().string(), "--out", out().string(), "--quiet", "--keys",
+                          "hypotheses.prior,hypotheses.coupling", "--evaluations", evaluations},
+                         {.folder = folder_.path(), .largest_file = largest});
   };
   ASSERT_EQ(asked("4", {}).exit_code, 0);
-  std::string before = bench::read(out() / kEvaluationsFile);
+  std::string before = test::read(out() / kEvaluationsFile);
   for (const std::size_t room : {1, 20, 0, 90}) {
     const auto full = asked("12", before.size() + room);
     EXPECT_EQ(full.exit_code, 2);
     EXPECT_NE(full.err.find("ulimit -f"), std::string::npos) << full.err;
-    const std::string after = bench::read(out() / kEvaluationsFile);
+    const std::string after = test::read(out() / kEvaluationsFile);
     EXPECT_TRUE(after.starts_with(before)) << "with room for " << room;
     before = after;
   }
   EXPECT_EQ(asked("12", 0).exit_code, 2);
-  EXPECT_EQ(bench::read(out() / kEvaluationsFile), before);
+  EXPECT_EQ(test::read(out() / kEvaluationsFile), before);
   ASSERT_EQ(asked("12", {}).exit_code, 0);
-  const std::string rows = bench::read(out() / kEvaluationsFile);
+  const std::string rows = test::read(out() / kEvaluationsFile);
   fs::remove_all(out());
   ASSERT_EQ(asked("12", {}).exit_code, 0);
-  EXPECT_EQ(rows, bench::read(out() / kEvaluationsFile)) << "as if there had always been room";
+  EXPECT_EQ(rows, test::read(out() / kEvaluationsFile)) << "as if there had always been room";
 }
 
 TEST_F(TuneCommand, TwoAtATimeIntoOneFolderAreRefused) {
-  bench::Command first(
+  test::Command first(
       {"tune", suite().string(), "--out", out().string(), "--quiet", "--evaluations", "1000000"},
       {folder_.path()});
   while (first.is_running() && !fs::exists(out() / kEvaluationsFile)) {
@@ -451,11 +451,11 @@ TEST_F(TuneCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
 }
 
 TEST_F(TuneCommand, AScenarioWithoutFiguresIsNamed) {
-  bench::write(folder_.path() / "bad.yaml",
-               "scene: none.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n");
-  const auto made = bench::run_lcs({"suite", "bad.yaml", "--seeds", "1", "--out",
-                                    (folder_.path() / "failed").string(), "--quiet"},
-                                   {folder_.path()});
+  test::write(folder_.path() / "bad.yaml",
+              "scene: none.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n");
+  const auto made = test::run_lcs({"suite", "bad.yaml", "--seeds", "1", "--out",
+                                   (folder_.path() / "failed").string(), "--quiet"},
+                                  {folder_.path()});
   ASSERT_EQ(made.exit_code, 2) << made.err;
   const auto result = tune({(folder_.path() / "failed").string()});
   EXPECT_EQ(result.exit_code, 2);
@@ -467,11 +467,11 @@ TEST_F(TuneCommand, AScenarioWithoutFiguresIsNamed) {
 TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
   const fs::path named = folder_.path() / "a\n#error b \xe2\x80\xae|\\";
   fs::rename(suite(), named);
-  const auto result = bench::run_lcs(
+  const auto result = test::run_lcs(
       {"tune", named.string(), "--out", out().string(), "--quiet", "--evaluations", "1"},
       {folder_.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  std::stringstream lines(bench::read(out() / "learnt.h"));
+  std::stringstream lines(test::read(out() / "learnt.h"));
   int told = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("#error") == std::string::npos) continue;
@@ -480,9 +480,9 @@ TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
     EXPECT_FALSE(line.ends_with('\\')) << line;
   }
   EXPECT_EQ(told, 1);
-  const std::string record = bench::read(out() / "record.md");
+  const std::string record = test::read(out() / "record.md");
   EXPECT_EQ(record.find("\n#error"), std::string::npos) << record;
-  EXPECT_EQ(bench::run_lcs(
+  EXPECT_EQ(test::run_lcs(
                 {"tune", named.string(), "--out", out().string(), "--quiet", "--evaluations", "2"},
                 {folder_.path()})
                 .exit_code,
@@ -493,19 +493,19 @@ TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
 TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {
   // A recording with movers is declared `nothing_moves`, so that there are false corners.
   const fs::path frames = folder_.path() / "frames", recorded = folder_.path() / "recorded";
-  const auto drawn = bench::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--set",
-                                     "frames=16", "--out", frames.string(), "--quiet"},
-                                    {folder_.path()});
+  const auto drawn = test::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--set",
+                                    "frames=16", "--out", frames.string(), "--quiet"},
+                                   {folder_.path()});
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
   fs::create_directory(recorded);
   std::ofstream(recorded / "still.yaml")
       << "recording: {path: " << frames.string() << ", nothing_moves: true}\n";
   const fs::path asked = folder_.path() / "asked";
-  const auto made = bench::run_lcs({"suite", recorded.string(), "--out", asked.string(), "--quiet"},
-                                   {folder_.path()});
+  const auto made = test::run_lcs({"suite", recorded.string(), "--out", asked.string(), "--quiet"},
+                                  {folder_.path()});
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  const auto off = bench::value(suite::read_suite(asked).scenarios.front().runs.front().metrics,
-                                "rebel.false_corners_per_frame");
+  const auto off = scoring::value(suite::read_suite(asked).scenarios.front().runs.front().metrics,
+                                  "rebel.false_corners_per_frame");
   ASSERT_GT(off.value(), 1);
 
   const auto alone = Trials({suite().string()}).worth(Parameters{});
@@ -518,7 +518,7 @@ TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {
 
 TEST_F(TuneCommand, RefusesTheSplitTest) {
   const fs::path file = suite() / "suite.json";
-  std::string text = bench::read(file);
+  std::string text = test::read(file);
   const std::string group = "\"short\"";
   const std::size_t at = text.find(group);
   ASSERT_NE(at, std::string::npos);
@@ -531,7 +531,7 @@ TEST_F(TuneCommand, RefusesTheSplitTest) {
 
 TEST_F(TuneCommand, NamesWhatIsNoSuite) {
   const auto result =
-      bench::run_lcs({"tune", folder_.path().string(), "--out", out().string()}, {folder_.path()});
+      test::run_lcs({"tune", folder_.path().string(), "--out", out().string()}, {folder_.path()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("suite.json"), std::string::npos) << result.err;
 }

@@ -16,21 +16,21 @@ namespace lcs::worlds {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::CommandResult;
+using test::CommandResult;
 
 class WorldCommand : public testing::Test {
  protected:
   CommandResult run(const std::vector<std::string>& arguments) {
-    return bench::run_lcs(arguments, {.folder = folder_.path()});
+    return test::run_lcs(arguments, {.folder = folder_.path()});
   }
-  const bench::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
   const CommandResult made = run({"world", "corridor", "--seed", "4", "--out", "mine"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(
-      bench::entries(folder_.path() / "mine"),
+      test::entries(folder_.path() / "mine"),
       (std::set<std::string>{"corridor_4.yaml", "scene.xml", "plan.png", "textures", "meshes"}));
   fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // no file has the path
   const CommandResult ran =
@@ -53,7 +53,7 @@ TEST_F(WorldCommand, ReplacesNoWorldThatWasEdited) {
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.err.find("scene.xml was changed since lcs wrote it"), std::string::npos)
       << again.err;
-  EXPECT_EQ(bench::read(folder_.path() / "mine" / "scene.xml"), "edited");
+  EXPECT_EQ(test::read(folder_.path() / "mine" / "scene.xml"), "edited");
 }
 
 TEST_F(WorldCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
@@ -112,28 +112,28 @@ TEST_F(WorldCommand, AKeptWorldThatWasEditedIsRefused) {
   }
   ASSERT_GT(files.size(), 4u);
   for (const fs::path& file : files) {
-    const std::string bytes = bench::read(file);
-    bench::write(file, bytes + " ");
+    const std::string bytes = test::read(file);
+    test::write(file, bytes + " ");
     const CommandResult edited = run(command);
     EXPECT_EQ(edited.exit_code, 2) << file;
     EXPECT_NE(edited.err.find("remove that folder"), std::string::npos) << edited.err;
-    EXPECT_EQ(bench::read(file), bytes + " ");
+    EXPECT_EQ(test::read(file), bytes + " ");
     fs::remove(file);
     EXPECT_EQ(run(command).exit_code, 2) << file << " is missing";
-    bench::write(file, bytes);
+    test::write(file, bytes);
   }
   EXPECT_EQ(run(command).exit_code, 0);
 }
 
 TEST_F(WorldCommand, TwoSuitesThatNeedTheSameWorldsAtOnceBothRun) {
   const auto start = [&](const char* out) {
-    return std::make_unique<bench::Command>(
+    return std::make_unique<test::Command>(
         std::vector<std::string>{"suite", "--worlds", "train", "--count", "2", "--family",
                                  "corridor", "--set", "frames=2", "--quiet", "--out", out},
-        bench::CommandOptions{.folder = folder_.path()});
+        test::CommandOptions{.folder = folder_.path()});
   };
   const auto one = start("one"), other = start("other");
-  for (bench::Command* suite : {one.get(), other.get()}) {
+  for (test::Command* suite : {one.get(), other.get()}) {
     const CommandResult result = suite->wait();
     EXPECT_EQ(result.exit_code, 0) << result.err;
   }
@@ -149,9 +149,9 @@ TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) 
             std::string::npos)
       << command.out;
   const fs::path out = folder_.path() / "out" / "suite";
-  EXPECT_EQ(bench::entries(out / "worlds"),
+  EXPECT_EQ(test::entries(out / "worlds"),
             (std::set<std::string>{"corridor_2000000.jpg", "corridor_2000001.jpg"}));
-  const std::string page = bench::read(out / "worlds.html");
+  const std::string page = test::read(out / "worlds.html");
   for (const char* part :
        {"worlds/corridor_2000001.jpg", "<td>lcs:lab</td>", "<td>klt</td>",
         "report.html#corridor_2000001/seed-2000001", "runs/corridor_2000001/seed-2000001/"}) {
@@ -200,7 +200,7 @@ class WorldOfSplit : public WorldCommand, public testing::WithParamInterface<std
   /// Copies the world's YAML without the lines that begin with `begins` to a file beside it.
   void copy_without(const std::vector<std::string>& begins, const std::string& name,
                     const std::string& added = "") {
-    std::istringstream lines(bench::read(world()));
+    std::istringstream lines(test::read(world()));
     std::string text;
     for (std::string line; std::getline(lines, line);) {
       const bool is_out = std::any_of(begins.begin(), begins.end(), [&](const std::string& begin) {
@@ -208,7 +208,7 @@ class WorldOfSplit : public WorldCommand, public testing::WithParamInterface<std
       });
       if (!is_out) text += line + '\n';
     }
-    bench::write(folder_.path() / "w" / name, text + added);
+    test::write(folder_.path() / "w" / name, text + added);
   }
 };
 INSTANTIATE_TEST_SUITE_P(TrainAndTest, WorldOfSplit, testing::Values(1, 2'000'000));
@@ -229,16 +229,16 @@ TEST_P(WorldOfSplit, StaysOneOfItByAnyNameAndSeed) {
 }
 
 TEST_P(WorldOfSplit, StaysOneOfItInAnotherScenarioAndASceneOfItsOwn) {
-  bench::write(folder_.path() / "other" / "drive.yaml",
-               "scene: ../w/scene.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
-               "camera: {size: [160, 120]}\n");
+  test::write(folder_.path() / "other" / "drive.yaml",
+              "scene: ../w/scene.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
+              "camera: {size: [160, 120]}\n");
   make_suite("other");
   expect_refused_or_not("another scenario");
-  bench::write(folder_.path() / "w" / "own.xml",
-               "<mujoco><include file='scene.xml'/></mujoco>");  // its textures are there
-  bench::write(folder_.path() / "other" / "drive.yaml",
-               "scene: ../w/own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
-               "camera: {size: [160, 120]}\n");
+  test::write(folder_.path() / "w" / "own.xml",
+              "<mujoco><include file='scene.xml'/></mujoco>");  // its textures are there
+  test::write(folder_.path() / "other" / "drive.yaml",
+              "scene: ../w/own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
+              "camera: {size: [160, 120]}\n");
   make_suite("other");
   expect_refused_or_not("a scene that includes it");
 }
@@ -248,7 +248,7 @@ TEST_P(WorldOfSplit, StaysOneOfItAsARecording) {
                                   "euroc,landmarks,mot", "--out", "seq", "--quiet"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const fs::path recorded = folder_.path() / "recorded" / "drive.yaml";
-  bench::write(recorded, "recording: {path: ../seq}\n");
+  test::write(recorded, "recording: {path: ../seq}\n");
   make_suite("recorded");
   expect_refused_or_not("a sequence");
   const CommandResult watched =
@@ -257,18 +257,18 @@ TEST_P(WorldOfSplit, StaysOneOfItAsARecording) {
   fs::remove_all(folder_.path() / "s");
   fs::rename(folder_.path() / "again", folder_.path() / "s");
   expect_refused_or_not("an earlier run of a sequence");
-  bench::write(recorded,
-               "recording: {path: ../seq/mav0/cam0/data, focal: 300 px, speed: 0 m/s, "
-               "nothing_moves: true}\n");
+  test::write(recorded,
+              "recording: {path: ../seq/mav0/cam0/data, focal: 300 px, speed: 0 m/s, "
+              "nothing_moves: true}\n");
   make_suite("recorded");
   expect_refused_or_not("pictures of a sequence");
   // A sequence from before the entry of the origin.
   const fs::path settings = folder_.path() / "seq" / "lcs.json";
-  std::string text = bench::read(settings);
+  std::string text = test::read(settings);
   const std::size_t at = text.find(",\n  \"origin\"");
   ASSERT_NE(at, std::string::npos);
-  bench::write(settings, text.substr(0, at) + "\n}\n");
-  bench::write(recorded, "recording: {path: ../seq}\n");
+  test::write(settings, text.substr(0, at) + "\n}\n");
+  test::write(recorded, "recording: {path: ../seq}\n");
   make_suite("recorded");
   expect_refused_or_not("a sequence of old");
 }
@@ -282,7 +282,7 @@ TEST_P(WorldOfSplit, OfOldIsKnownByItsName) {
   const std::string origin = ",\"origin\":{\"family\":\"corridor\",\"seed\":" + seed() + "}";
   const std::size_t at = text.find(origin);
   ASSERT_NE(at, std::string::npos);
-  bench::write(truth, text.erase(at, origin.size()));
+  test::write(truth, text.erase(at, origin.size()));
   expect_refused_or_not("by its name");
 }
 
@@ -301,21 +301,21 @@ TEST_F(WorldCommand, ItsOriginChangesNoPicture) {
   ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--out", "w"}).exit_code, 0);
   const fs::path with = folder_.path() / "w", without = folder_.path() / "without";
   fs::copy(with, without, fs::copy_options::recursive);
-  std::string scene = bench::read(without / "scene.xml");
+  std::string scene = test::read(without / "scene.xml");
   const std::size_t begin = scene.find("  <custom>"), end = scene.find("  <compiler");
   ASSERT_LT(begin, end);
-  bench::write(without / "scene.xml", scene.erase(begin, end - begin));
-  std::string yaml = bench::read(without / "corridor_4.yaml");
-  bench::write(without / "corridor_4.yaml",
-               yaml.erase(yaml.find("origin:"), yaml.find("\nseed:") + 1 - yaml.find("origin:")));
+  test::write(without / "scene.xml", scene.erase(begin, end - begin));
+  std::string yaml = test::read(without / "corridor_4.yaml");
+  test::write(without / "corridor_4.yaml",
+              yaml.erase(yaml.find("origin:"), yaml.find("\nseed:") + 1 - yaml.find("origin:")));
   for (const char* folder : {"w", "without"}) {
     const CommandResult made =
         run({"generate", std::string(folder) + "/corridor_4.yaml", "--set", "frames=3", "--formats",
              "euroc,landmarks", "--out", std::string("of_") + folder, "--quiet"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
-  const auto one = bench::bytes_in(folder_.path() / "of_w");
-  auto other = bench::bytes_in(folder_.path() / "of_without");
+  const auto one = test::bytes_in(folder_.path() / "of_w");
+  auto other = test::bytes_in(folder_.path() / "of_without");
   for (const auto& [path, bytes] : one) {
     const bool tells_of_it = path == "lcs.json" || path == "scenario.yaml" ||
                              path == "manifest.json" || path == ".lcs-written";

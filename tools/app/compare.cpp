@@ -17,8 +17,6 @@ Compared compare(const CompareRequest& request) {
   Compared compared{
       .before = suite::read_suite(request.before),
       .after = suite::read_suite(request.after),
-      .comparison = {},
-      .verdict = {},
       .warnings = other_inputs(suite::folder_of(request.before), suite::folder_of(request.after))};
   compared.comparison =
       suite::compare(compared.before, compared.after,
@@ -37,7 +35,7 @@ Compared compare(const CompareRequest& request) {
                              after = in_folder(compared.after, request.after);
   compared.verdict = suite::verdict_of(after, &before, &compared.comparison);
   if (is_text_asked) {
-    bench::Output folder(request.markdown,
+    files::Output folder(request.markdown,
                          {suite::kSummaryFile, suite::kBeforePicture, suite::kAfterPicture});
     suite::write_merge_request(folder.staging(), before, after, compared.comparison,
                                compared.verdict, request.pictures_at);

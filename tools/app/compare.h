@@ -23,8 +23,8 @@ Options options_of(CompareRequest& request);
 
 struct Compared {
   suite::SuiteResult before, after;
-  suite::Comparison comparison;
-  suite::Verdict verdict;
+  suite::Comparison comparison = {};
+  suite::SuiteVerdict verdict = {};
   std::vector<std::string> warnings = {};
 };
 

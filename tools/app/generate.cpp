@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -18,7 +17,6 @@
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/recording/warnings.h"
-#include "tools/sequence/generator.h"
 #include "tools/sequence/writer.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/shard.h"
@@ -27,11 +25,6 @@ namespace lcs::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path target_of(const GenerateRequest& request, const scenario::Scenario& scenario) {
-  if (!request.out.empty()) return request.out;
-  return fs::path("data") / scenario.name;
-}
 
 scenario::Scenario load(const GenerateRequest& request) {
   scenario::Scenario scenario =
@@ -73,7 +66,7 @@ void tell_size(const scenario::Scenario& scenario, const std::vector<std::string
   bytes *= 1 - 1.0 * folder.recorded() / scenario.frames;
   const auto free = static_cast<double>(fs::space(folder.staging()).available);
   if (bytes <= free) return;
-  throw bench::OutputError(
+  throw files::OutputError(
       fmt::format("{}: the sequence takes about {}, and its disk has {} free; make room, or choose "
                   "fewer --formats, fewer --frames or another folder with --out",
                   folder.target().string(), megabytes(bytes), megabytes(free)));
@@ -95,9 +88,7 @@ void share_frames(const GenerateRequest& request, sequence::SequenceFolder& fold
       [&](std::size_t place, const suite::Exit& exit) {
         // Only the process of the last part simulates the world to its end.
         if (place + 1 == commands.size()) caller.warn(suite::warnings_of(exit));
-        if (exit.code != 0 || exit.signal != 0) {
-          throw std::runtime_error(suite::complaint_of(exit));
-        }
+        if (!exit.is_fine()) throw std::runtime_error(suite::complaint_of(exit));
       },
       [&](const std::vector<std::size_t>&) {
         const int recorded = folder.recorded();
@@ -116,11 +107,6 @@ std::function<void()> waiting(const fs::path& target, Caller& caller) {
     caller.check();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   };
-}
-
-/// The folder of the scenario, to which the paths in a sequence's provenance are relative.
-fs::path folder_of(const scenario::Scenario& scenario) {
-  return fs::absolute(scenario.file).lexically_normal().parent_path();
 }
 
 /// Makes the frames of a part, or of the whole sequence and with it the files of all frames.
@@ -144,7 +130,7 @@ void make(const GenerateRequest& request, const sequence::GenerateOptions& what,
         "interrupted; {} of {} frames are whole, and the same command goes on from there", whole,
         frames));
   }
-  caller.warn(bench::lines_of(bench::WarningWatch(bench::Truth::all).warned(world)));
+  caller.warn(recording::lines_of(recording::WarningWatch(recording::Truth::all).warned(world)));
   made.state = request.shard.empty() ? Generated::State::whole : Generated::State::part;
   if (request.shard.empty()) made.notes = sequence::finish_sequence(scenario, what, folder);
 }
@@ -183,9 +169,10 @@ Generated generate(const GenerateRequest& request, Caller& caller) {
   sequence::GenerateOptions what{formats_of(request, {}), request.sets, {}};
   add_program(what.program, {});
   add_changed_program(what.program);
-  const fs::path target = target_of(request, scenario);
-  sequence::SequenceFolder folder(target, folder_of(scenario), request.add, is_part,
-                                  waiting(target, caller));
+  const fs::path target = place_of(request.out, fs::path("data") / scenario.name);
+  // The paths in a sequence's provenance are relative to the folder of the scenario.
+  const fs::path base = fs::absolute(scenario.file).lexically_normal().parent_path();
+  sequence::SequenceFolder folder(target, base, request.add, is_part, waiting(target, caller));
   made.folder = folder.target();
   std::vector<std::string> earlier;
   if (request.add) earlier = folder.formats();

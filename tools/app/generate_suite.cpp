@@ -1,8 +1,6 @@
 // The sequences of a suite: makes every sequence in its own process.
 #include <fmt/format.h>
 
-#include <chrono>
-#include <filesystem>
 #include <stdexcept>
 
 #include "tools/app/generate.h"
@@ -13,9 +11,9 @@
 namespace lcs::app {
 namespace {
 
-struct PlannedSequence {
-  std::string name;  ///< name of its folder
-  std::vector<std::string> command;
+struct PlannedSequences {
+  std::vector<std::string> names;  ///< of their folders
+  std::vector<std::vector<std::string>> commands;
 };
 
 std::filesystem::path folder_of(const GenerateRequest& request) {
@@ -32,15 +30,12 @@ std::vector<std::filesystem::path> draw_part(const GenerateRequest& request,
   }
   int place = 0;
   std::erase_if(chosen, [&](const auto&) { return place++ % shard.parts != shard.part - 1; });
-  draw_worlds(chosen, jobs_at_once(request.jobs), caller);
-  std::vector<std::filesystem::path> files;
-  for (const worlds::Kept& one : chosen) files.push_back(one.file);
-  return files;
+  return draw_worlds(chosen, jobs_at_once(request.jobs), caller);
 }
 
 /// The sequences of this shard. Adds an error for each broken scenario.
-std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, SequencesMade& made,
-                                            Caller& caller) {
+PlannedSequences plan_sequences(const GenerateRequest& request, SequencesMade& made,
+                                Caller& caller) {
   suite::Shard shard = request.shard.empty() ? suite::Shard{} : suite::shard_of(request.shard);
   std::vector<std::filesystem::path> paths(request.paths.begin(), request.paths.end());
   if (!request.worlds.split.empty()) {
@@ -48,7 +43,7 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
     shard = {};
   }
   const std::filesystem::path folder = folder_of(request);
-  std::vector<PlannedSequence> mine;
+  PlannedSequences mine;
   std::size_t place = 0;
   for (const suite::PlannedScenario& planned : suite::plan({.paths = paths,
                                                .group = request.group,
@@ -67,10 +62,10 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
       GenerateRequest one = request;
       one.sets = planned.sets;
       one.seed = seed;
-      const std::string name = fmt::format("{}-seed{}", planned.name, seed);
-      made.folders.push_back(folder / name);
-      mine.push_back(
-          {name, sequence_command(one, planned.file.string(), (folder / name).string())});
+      mine.names.push_back(fmt::format("{}-seed{}", planned.name, seed));
+      made.folders.push_back(folder / mine.names.back());
+      mine.commands.push_back(
+          sequence_command(one, planned.file.string(), made.folders.back().string()));
     }
   }
   return mine;
@@ -80,34 +75,32 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
 
 SequencesMade generate_suite(const GenerateRequest& request, Caller& caller) {
   SequencesMade made;
-  const std::vector<PlannedSequence> sequences = plan_sequences(request, made, caller);
+  const PlannedSequences sequences = plan_sequences(request, made, caller);
   // A folder that cannot be made is told once, not by each sequence.
   std::filesystem::create_directories(folder_of(request));
-  std::vector<std::vector<std::string>> commands;
-  for (const PlannedSequence& sequence : sequences) commands.push_back(sequence.command);
+  const std::size_t total = sequences.names.size();
   std::size_t done = 0;
   try {
     suite::run_all(
-        commands, static_cast<std::size_t>(request.jobs),
+        sequences.commands, static_cast<std::size_t>(request.jobs),
         [&](std::size_t place, const suite::Exit& exit) {
           ++done;
-          const std::string& name = sequences[place].name;
+          const std::string& name = sequences.names[place];
           for (const std::string& line : suite::warnings_of(exit)) {
             caller.warn({fmt::format("{}: {}", name, line)});
           }
-          if (exit.code != 0 || exit.signal != 0) {
+          if (exit.is_fine()) {
+            caller.note(fmt::format("[{}/{}] {}: {:.1f} s", done, total, name, exit.wall_s));
+          } else {
             made.errors.push_back(fmt::format("{}: {}", name, suite::complaint_of(exit)));
             caller.tell("error: " + made.errors.back());
-          } else {
-            caller.note(
-                fmt::format("[{}/{}] {}: {:.1f} s", done, sequences.size(), name, exit.wall_s));
           }
         },
         [&](const std::vector<std::size_t>&) { caller.check(); });
   } catch (const Interrupted&) {
     throw Interrupted(fmt::format(
         "interrupted; {} of {} sequences are whole, and the same command goes on from there", done,
-        sequences.size()));
+        total));
   }
   return made;
 }

@@ -34,9 +34,9 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   std::size_t before = 0;
   try {
     // Not as an input of this command, which may replace it.
-    const auto json = bench::parse_json<nlohmann::ordered_json>(
-        bench::beginning(folder / bench::kHowMadeFile, 1 << 24));
-    before = bench::JsonNode(json, "")[what].natural();
+    const auto json = files::parse_json<nlohmann::ordered_json>(
+        files::beginning(folder / files::kHowMadeFile, 1 << 24));
+    before = files::JsonNode(json, "")[what].natural();
   } catch (const std::exception&) {  // of another kind, or made before there was this file
     return;
   }
@@ -44,7 +44,7 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   const std::string text = fmt::format("{} holds a result of {} {}, and this one has {}",
                                        folder.string(), before, what, count);
   if (is_named) return caller.warn({text + ", which will replace it"});
-  throw bench::OutputError(text + "; name a place by --out, or remove that folder");
+  throw files::OutputError(text + "; name a place by --out, or remove that folder");
 }
 
 void add_program(nlohmann::ordered_json& facts, const sim::Versions& versions) {
@@ -59,14 +59,14 @@ void add_changed_program(nlohmann::ordered_json& facts) {
 }
 
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
-                    const bench::Provenance& provenance) {
+                    const files::Provenance& provenance) {
   nlohmann::ordered_json json{{"command", command}};
   json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(request_start.date));
   json["wall_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - request_start.wall).count();
   json["cpu_s"] = static_cast<double>(std::clock() - request_start.cpu) / CLOCKS_PER_SEC;
   json.update(provenance.json());
-  bench::write_file(folder / bench::kHowMadeFile, bench::json_text(json, 1) + '\n');
+  files::write_file(folder / files::kHowMadeFile, files::json_text(json, 1) + '\n');
 }
 
 }  // namespace lcs::app

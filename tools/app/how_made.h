@@ -23,7 +23,7 @@ void add_changed_program(nlohmann::ordered_json& facts);
 /// \param command that repeats the result.
 /// \throws bench::OutputError
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
-                    const bench::Provenance& provenance);
+                    const files::Provenance& provenance);
 
 /// Begins the times of the next `write_how_made`, in a process that carries out several requests.
 void note_start();

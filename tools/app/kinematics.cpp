@@ -9,7 +9,6 @@
 #include "tools/files/output.h"
 #include "tools/kinematics/study.h"
 #include "tools/kinematics/study_files.h"
-#include "tools/output/result.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::app {
@@ -23,9 +22,9 @@ KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
       request.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
   config.tolerance_px = request.tolerance_px;
   caller.warn(scenario::shadowed_files(config.scenario));
-  bench::ResultNames names = kinematics::study_files();
-  names.push_back(bench::kHowMadeFile);
-  bench::Output folder(request.out, names);
+  files::ResultNames names = kinematics::study_files();
+  names.push_back(files::kHowMadeFile);
+  files::Output folder(request.out, names);
   const auto study = [&] {
     const auto progress =
         caller.progress("kinematics", kinematics::study_pieces(config), "experiments");
@@ -41,7 +40,7 @@ KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
                                {"settings", request.sets}};
   add_program(facts, sim::versions());
   write_how_made(folder.staging(), suite::shell_line(arguments_of(request)),
-                 bench::provenance_of(std::move(facts)));
+                 files::provenance_of(std::move(facts)));
   caller.check();
   folder.commit();
   std::vector<kinematics::Statement> answer = kinematics::answer(study);

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "scenarios/input/message.h"
 #include "tools/app/how_made.h"
@@ -25,35 +23,35 @@ namespace fs = std::filesystem;
 /// A part, which may come from another machine and from somebody else.
 struct Part {
   fs::path folder;
-  bench::WrittenFiles files;  ///< all of them as they were written
-  bench::Provenance provenance;
+  files::WrittenFiles files;  ///< all of them as they were written
+  files::Provenance provenance;
 };
 
 /// \throws std::runtime_error if a file of the part is not as lcs has written it.
 Part read_part(const std::string& named) {
   Part part{.folder = suite::folder_of(named), .files = {}, .provenance = {}};
-  if (const std::string what = bench::first_difference(part.folder); !what.empty()) {
+  if (const std::string what = files::first_difference(part.folder); !what.empty()) {
     throw std::runtime_error(
         fmt::format("{}: {}; make that part again", part.folder.string(), what));
   }
-  part.files = bench::read_record(part.folder / bench::kRecordName);
-  part.provenance = bench::read_how_made(part.folder);
+  part.files = files::read_record(part.folder / files::kRecordName);
+  part.provenance = files::read_how_made(part.folder);
   return part;
 }
 
 /// \throws std::runtime_error for parts of which the provenances differ.
-bench::Provenance joined(const std::vector<Part>& parts, const suite::SuiteResult& whole) {
+files::Provenance joined(const std::vector<Part>& parts, const suite::SuiteResult& whole) {
   const Part& first = parts.front();
-  bench::Provenance provenance{.facts = first.provenance.facts, .read = {}};
+  files::Provenance provenance{.facts = first.provenance.facts, .read = {}};
   for (const Part& part : parts) {
-    const std::string what = bench::difference(first.provenance, part.provenance, kFactsOfParts);
+    const std::string what = files::difference(first.provenance, part.provenance, kFactsOfParts);
     if (!what.empty()) {
       throw std::runtime_error(fmt::format("{} and {} are no parts of one suite: {}",
                                            first.folder.string(), part.folder.string(), what));
     }
     provenance.add_read(part.provenance, part.folder.string());
   }
-  suite::Runs runs;
+  suite::SuiteRuns runs;
   for (const suite::ScenarioResult& scenario : whole.scenarios) {
     std::vector<std::uint64_t>& seeds = runs.emplace_back(scenario.name, 0).second;
     for (const suite::RunResult& run : scenario.runs) seeds.push_back(run.seed);
@@ -65,11 +63,11 @@ bench::Provenance joined(const std::vector<Part>& parts, const suite::SuiteResul
 /// Takes the files of the runs, of all detectors, and the pictures of worlds. The report and so on
 /// are made anew.
 void take_files(const Part& part, const fs::path& to, Caller& caller) {
-  const bench::ResultNames names = suite::suite_files();
+  const files::ResultNames names = suite::suite_files();
   for (const auto& [name, digest] : part.files) {
     caller.check();
     const fs::path file = name;
-    if (!bench::is_inner(file) || !bench::is_name_of(file, names)) {
+    if (!files::is_inner(file) || !files::is_name_of(file, names)) {
       throw std::runtime_error(fmt::format("{}: {} is no file of a suite; make that part again",
                                            part.folder.string(), input::one_line(name)));
     }
@@ -77,7 +75,7 @@ void take_files(const Part& part, const fs::path& to, Caller& caller) {
     const bool is_of_detector = top == "beside" && file.filename() != suite::kSuiteFile;
     if (top != "runs" && top != report::kSheetsFolder && !is_of_detector) continue;
     fs::create_directories((to / file).parent_path());
-    bench::link_or_copy(part.folder / file, to / file);
+    files::link_or_copy(part.folder / file, to / file);
   }
 }
 
@@ -104,12 +102,12 @@ SuiteMade merge(const MergeRequest& request, Caller& caller) {
   for (const std::string& name : result.beside) {
     others.push_back(merged(parts, part_of(name, result.detector)));
   }
-  const bench::Provenance provenance = joined(parts, result);
+  const files::Provenance provenance = joined(parts, result);
   const std::optional<suite::SuiteResult> baseline = baseline_of(request.place);
   note_longer(request.place.out, request.place.is_named(), "runs",
               provenance.facts.at("runs").get<std::size_t>(), caller);
 
-  bench::Output folder(request.place.out, suite::suite_files());
+  files::Output folder(request.place.out, suite::suite_files());
   for (const Part& part : parts) take_files(part, folder.staging(), caller);
   for (const suite::SuiteResult& other : others) {
     fs::create_directories(folder.staging() / part_of(other.detector, result.detector));

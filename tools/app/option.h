@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <sstream>
@@ -22,6 +23,11 @@
 namespace lcs::app {
 
 using Texts = std::vector<std::string>;
+
+/// The place that --out names. \param usual if it is not given.
+inline std::filesystem::path place_of(const std::string& out, const std::filesystem::path& usual) {
+  return out.empty() ? usual : std::filesystem::path(out);
+}
 
 struct Option {
   /// From `list` on, it takes several words, each after the option's name again.

@@ -67,8 +67,8 @@ void add_results(Options& all, bool& video, bool& events) {
           "Write events.json: missed and false rebels, with reasons and pictures");
 }
 
-void add_keep(Options& all, bench::Keep& keep) {
-  const auto read = [&keep](const std::string& word) { keep = bench::keep_of(word); };
+void add_keep(Options& all, output::Keep& keep) {
+  const auto read = [&keep](const std::string& word) { keep = output::keep_of(word); };
   const auto words = [&keep] { return Texts{std::string(word_of(keep))}; };
   all.push_back(
       {"--keep", "WHAT",
@@ -117,8 +117,7 @@ constexpr RecordingKey kRecordingKeys[] = {
      "Poses of the camera: lines of TUM (t x y z qx qy qz qw) or KITTI (12 numbers), or a table"},
     {"imu", "FILE",
      "Readings of an IMU, a table with a header as EuRoC's, ROS's or a phone's; where pictures "
-     "have "
-     "no clock the first one belongs to the first picture, --speed is the speed then"},
+     "have no clock the first one belongs to the first picture, --speed is the speed then"},
     {"odometry", "FILE", "Velocities by the wheels, in addition to --imu, CSV as EuRoC's"},
     {"speed", "M/S", "Of the camera, ahead, in m/s; 0 where it stands"},
     {"at_rest", "S", "Seconds at the start in which the camera stands"},
@@ -197,7 +196,7 @@ Options options_of(RunRequest& request) {
 
 Options options_of(ReplayRequest& request) {
   std::string layouts = "Layout of the recording; if not given, recognized by its files:";
-  for (const replay::Layout& layout : replay::layouts()) {
+  for (const replay::RecordingLayout& layout : replay::layouts()) {
     layouts += fmt::format("\n{:<14} {}", layout.name, layout.purpose);
   }
   const auto read = [&request](const std::string& assignment) {
@@ -314,14 +313,8 @@ Options options_of(GenerateRequest& request) {
           "data if not given",
           {.is_output = true});
   all.add("--formats", "LIST", &request.formats, formats, {.is_joined = true});
-  all.push_back({"--for",
-                 "USE",
-                 about_uses,
-                 Kind::text,
-                 false,
-                 read_use,
-                 no_words,
-                 {.excludes = "--formats", .keyword = ""}});
+  const Option::More of_use{.excludes = "--formats", .keyword = ""};
+  all.push_back({"--for", "USE", about_uses, Kind::text, false, read_use, no_words, of_use});
   all.add("--add", "", &request.add,
           "Add the formats to the finished sequence in --out, which the same scenario, seed and "
           "program made; files that are there stay as they are");

@@ -1,12 +1,10 @@
 #include "tools/app/replay.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "scenarios/input/document.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
-#include "tools/files/output.h"
 
 namespace lcs::app {
 namespace {
@@ -22,7 +20,7 @@ Value scalar(const std::string& flag, const std::string& text) {
 
 Value list_of(const std::string& flag, const std::string& text) {
   Value list(Value::Kind::list, {flag, 0});
-  for (const std::string_view item : bench::fields_of(text)) {
+  for (const std::string_view item : files::fields_of(text)) {
     list.items.push_back(scalar(flag, std::string(item)));
   }
   return list;
@@ -30,14 +28,18 @@ Value list_of(const std::string& flag, const std::string& text) {
 
 /// Sets a key of the map: replaces its value or appends a new entry.
 void put(Value& map, const std::string& key, Value value) {
-  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
-                                  [&](const input::Entry& entry) { return entry.key == key; });
+  const auto found = std::ranges::find(map.entries, key, &input::Entry::key);
   if (found != map.entries.end()) {
     found->value = std::move(value);
   } else {
     const input::Source where = value.where;
     map.entries.push_back({key, where, std::move(value)});
   }
+}
+
+/// As `put`; not for an empty text or map.
+void put_given(Value& map, const std::string& key, Value value) {
+  if (!value.text.empty() || !value.entries.empty()) put(map, key, std::move(value));
 }
 
 /// The type of a key's value; "" for one without an option.
@@ -62,15 +64,13 @@ Value recording_of(const ReplayRequest& request) {
       put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
     }
   }
-  if (!topics.entries.empty()) put(recording, "topics", std::move(topics));
+  put_given(recording, "topics", std::move(topics));
   return recording;
 }
 
 Value filter_of(const ReplayRequest& request) {
   Value filter(Value::Kind::map, {"--set", 0});
-  if (!request.preset.empty()) {
-    put(filter, "preset", scalar("--preset " + request.preset, request.preset));
-  }
+  put_given(filter, "preset", scalar("--preset " + request.preset, request.preset));
   for (const std::string& setting : request.sets) {
     const auto [key, value] = key_and_value(setting);
     put(filter, key, scalar("--set " + setting, value));
@@ -82,17 +82,12 @@ Value filter_of(const ReplayRequest& request) {
 Value document_of(const ReplayRequest& request) {
   Value root(Value::Kind::map, {"lcs replay", 0});
   put(root, "recording", recording_of(request));
-  if (!request.ego_motion.empty()) {
-    put(root, "ego_motion", scalar("--ego-motion", request.ego_motion));
-  }
+  put_given(root, "ego_motion", scalar("--ego-motion", request.ego_motion));
   Value corners(Value::Kind::map, {"lcs replay", 0});
-  if (!request.corners.empty()) put(corners, "from", scalar("--corners", request.corners));
-  if (!request.fast_threshold.empty()) {
-    put(corners, "threshold", scalar("--fast-threshold", request.fast_threshold));
-  }
-  if (!corners.entries.empty()) put(root, "corners", std::move(corners));
-  Value filter = filter_of(request);
-  if (!filter.entries.empty()) put(root, "filter", std::move(filter));
+  put_given(corners, "from", scalar("--corners", request.corners));
+  put_given(corners, "threshold", scalar("--fast-threshold", request.fast_threshold));
+  put_given(root, "corners", std::move(corners));
+  put_given(root, "filter", filter_of(request));
   return root;
 }
 
@@ -124,14 +119,14 @@ std::string flag_of(const std::string& key) {
 }
 
 void write_scenario(const ReplayRequest& request, const fs::path& path,
-                    bench::Overwrite overwrite) {
+                    files::Overwrite overwrite) {
   Value document = document_of(request);
   scenario::load(document, "");  // throws for wrong values
-  bench::Output file(path, overwrite);
+  files::Output file(path, overwrite);
   for (input::Entry& entry : document.entries) {
     if (entry.key == "recording") make_absolute(entry.value);
   }
-  bench::write_file(file.staging(), input::yaml_text(document) + "\n");
+  files::write_file(file.staging(), input::yaml_text(document) + "\n");
   file.commit();
 }
 

@@ -52,6 +52,6 @@ RunMade replay(const ReplayRequest& request, Caller& caller);
 /// Writes the scenario that the request describes.
 /// \throws input::Error, bench::OutputError; then nothing is written.
 void write_scenario(const ReplayRequest& request, const std::filesystem::path& path,
-                    bench::Overwrite overwrite);
+                    files::Overwrite overwrite);
 
 }  // namespace lcs::app

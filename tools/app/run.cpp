@@ -2,15 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <functional>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
-#include <vector>
 
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
@@ -21,36 +16,25 @@
 #include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"
 #include "tools/comparators/detectors.h"
-#include "tools/output/result.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 #include "tools/report/report_page.h"
-#include "tools/scoring/criteria.h"
 #include "tools/scoring/metrics.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::app {
 namespace {
 
-std::filesystem::path target_of(const RunRequest& request, const scenario::Scenario& scenario) {
-  if (!request.out.empty()) return request.out;
-  return std::filesystem::path("out") / scenario.name;
-}
-
-Intrinsics camera_of(const scenario::Scenario& scenario) {
-  return bench::intrinsics(sim::lens_of(scenario.camera).pinhole());
-}
-
 /// The source of the frames that the detectors process.
 struct Frames {
   Intrinsics camera;
-  bench::RunInfo info;
-  int count = 0;                                   ///< number of frames; 0: unknown
-  sim::Versions versions = {};                     ///< empty if nothing is simulated
-  const bench::FramePictures* pictures = nullptr;  ///< of an earlier run; null: none
+  recording::RunInfo info;
+  int count = 0;                                    ///< number of frames; 0: unknown
+  sim::Versions versions = {};                      ///< empty if nothing is simulated
+  const output::FramePictures* pictures = nullptr;  ///< of an earlier run; null: none
   /// Warnings about data that the earlier run lacks, once `run` has ended.
   std::function<std::vector<std::string>()> missing = [] { return std::vector<std::string>(); };
-  std::function<bench::RunEnd(std::span<const bench::Watcher>)> run;
+  std::function<bench::RunEnd(std::span<const bench::DetectorRun>)> run;
 };
 
 Frames simulated(const scenario::Scenario& scenario, int threads) {
@@ -59,8 +43,8 @@ Frames simulated(const scenario::Scenario& scenario, int threads) {
           .info = bench::run_info(scenario, *simulation),
           .count = scenario.frames,
           .versions = simulation->versions(),
-          .run = [&scenario, simulation, threads](std::span<const bench::Watcher> watchers) {
-            return bench::run(scenario, *simulation, watchers, threads);
+          .run = [&scenario, simulation, threads](std::span<const bench::DetectorRun> detectors) {
+            return bench::run(scenario, *simulation, detectors, threads);
           }};
 }
 
@@ -68,24 +52,24 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback, in
   return {.camera = bench::intrinsics(playback.camera()),
           .info = playback.info(),
           .count = scenario.frames,
-          .run = [&scenario, &playback, threads](std::span<const bench::Watcher> watchers) {
-            return bench::run(playback, bench::CornerFinder(scenario), watchers, threads);
+          .run = [&scenario, &playback, threads](std::span<const bench::DetectorRun> detectors) {
+            return bench::run(playback, bench::CornerFinder(scenario), detectors, threads);
           }};
 }
 
 /// \throws std::runtime_error if a file that the earlier run has read was changed since, such as a
 ///   part of its scene. The scenario's own values are compared one by one (bench::EarlierRun).
 void require_same_files(const RunRequest& request, const scenario::Scenario& scenario) {
-  if (!std::filesystem::exists(std::filesystem::path(request.recorded) / bench::kHowMadeFile)) {
+  if (!std::filesystem::exists(std::filesystem::path(request.recorded) / files::kHowMadeFile)) {
     return;
   }
-  bench::Provenance there = bench::read_how_made(request.recorded);
+  files::Provenance there = files::read_how_made(request.recorded);
   std::error_code error;
   std::erase_if(there.read, [&](const auto& file) {
     return std::filesystem::equivalent(file.first, scenario.file, error) ||
            !std::filesystem::exists(file.first, error);  // it was made elsewhere
   });
-  const std::string what = bench::changed_since(there);
+  const std::string what = files::changed_since(there);
   if (what.empty()) return;
   throw std::runtime_error(
       fmt::format("{} is no recording of this run: {}; run {} without --recorded to make one",
@@ -131,8 +115,8 @@ Frames recorded(const RunRequest& request, const scenario::Scenario& scenario,
           .pictures = earlier->pictures(),
           .missing = missing,
           .run = [earlier, with_images,
-                  threads = request.threads](std::span<const bench::Watcher> watchers) {
-            return earlier->run(watchers, with_images, threads);
+                  threads = request.threads](std::span<const bench::DetectorRun> detectors) {
+            return earlier->run(detectors, with_images, threads);
           }};
 }
 
@@ -143,14 +127,15 @@ struct Watching {
   scenario::Scenario scenario;  ///< with this detector's preset applied
   std::vector<std::string> settings_without_effect = {};
   std::unique_ptr<bench::Detector> detector = {};
-  bench::RunInfo info = {};
-  std::unique_ptr<bench::Result> result = {};
+  recording::RunInfo info = {};
+  std::unique_ptr<output::Result> result = {};
 };
 
 /// The run's own detector, then the detectors of `--beside`.
 std::vector<Watching> watching(const RunRequest& request, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
-  all.push_back({spec_of(request.detector), target_of(request, scenario), scenario});
+  const auto target = place_of(request.out, std::filesystem::path("out") / scenario.name);
+  all.push_back({spec_of(request.detector), target, scenario});
   for (const std::string& beside : request.beside) {
     const std::size_t equals = beside.find('=');
     if (equals == std::string::npos || equals + 1 == beside.size()) {
@@ -194,32 +179,28 @@ void write_how_made(const RunRequest& request, const scenario::Scenario& scenari
   add_program(facts, frames.versions);
   app::write_how_made(watching.result->output().staging(),
                       command_of(request, scenario, watching, is_own),
-                      bench::provenance_of(std::move(facts)));
+                      files::provenance_of(std::move(facts)));
 }
 
 /// Writes the report page of the run as a suite with a single run.
 void write_page(const RunRequest& request, const scenario::Scenario& scenario, const Watching& own,
-                const std::filesystem::path& folder, const bench::Metrics& metrics) {
+                const std::filesystem::path& folder, const scoring::Metrics& metrics) {
   suite::RunResult run{.seed = scenario.seed,
                        .outcome = suite::Outcome::passed,
                        .command = command_of(request, scenario, own, true),
-                       .error = {},
                        .metrics = metrics,
-                       .criteria = {},
                        .warnings = own.result->warned(),
                        .folder = "."};
-  suite::judge_run(bench::asked_of(own.spec.name, true, scenario.criteria), run);
+  suite::judge_run(scoring::asked_of(own.spec.name, true, scenario.criteria), run);
   suite::SuiteResult suite{.detector = own.spec.name,
                            .sets = request.sets,
                            .version = version_line(),
-                           .recorded = request.recorded,
-                           .scenarios = {}};
+                           .recorded = request.recorded};
   if (!request.frames.empty()) suite.sets.push_back("frames=" + request.frames);
   suite.scenarios.push_back({.name = scenario.name,
                              .purpose = scenario.purpose,
                              .file = request.scenario,
                              .groups = scenario.groups,
-                             .point = {},
                              .runs = {run}});
   report::write_run_report(folder / report::kReportFile, {suite, folder});
 }
@@ -228,8 +209,9 @@ void write_page(const RunRequest& request, const scenario::Scenario& scenario, c
 Frames frames_of(const RunRequest& request, const scenario::Scenario& scenario,
                  replay::Playback* playback) {
   if (!request.recorded.empty()) {
-    return recorded(request, scenario,
-                    playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
+    return recorded(
+        request, scenario,
+        bench::intrinsics(playback ? playback->camera() : sim::lens_of(scenario.camera).pinhole()));
   }
   return playback ? played(scenario, *playback, request.threads)
                   : simulated(scenario, request.threads);
@@ -260,9 +242,10 @@ void open_results(const RunRequest& request, const scenario::Scenario& scenario,
   // The frames of a recording keep their truth: its file is copied if its form stays.
   const bool is_truth_there =
       !request.recorded.empty() &&
-      request.gzip == (bench::stored(request.recorded, bench::kTruthFile).extension() == ".gz");
+      request.gzip ==
+          (recording::stored(request.recorded, recording::kTruthFile).extension() == ".gz");
   for (Watching& one : all) {
-    bench::ResultOptions what;
+    output::ResultOptions what;
     what.keep = request.keep;
     what.compressed = request.gzip;
     what.is_truth_there = &one != &own || is_truth_there;
@@ -271,13 +254,13 @@ void open_results(const RunRequest& request, const scenario::Scenario& scenario,
       if (request.view) what.show = request.view(scenario);
       what.events = request.events || request.report;
       if (request.report) {
-        what.add_page = [&](const std::filesystem::path& folder, const bench::Metrics& figures) {
+        what.add_page = [&](const std::filesystem::path& folder, const scoring::Metrics& figures) {
           write_page(request, scenario, own, folder, figures);
         };
       }
       what.kept = frames.pictures;
     }
-    one.result = std::make_unique<bench::Result>(
+    one.result = std::make_unique<output::Result>(
         one.target, one.info, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
     if (&one == &own && is_truth_there) one.result->copy_truth(request.recorded);
   }
@@ -289,32 +272,32 @@ void warn_before(const scenario::Scenario& scenario, const std::vector<Watching>
   caller.warn(all.front().settings_without_effect);
   std::set<std::string> names;
   for (const Watching& one : all) names.insert(one.spec.name);
-  caller.warn(bench::not_asked(scenario.criteria, names));
-  caller.warn(bench::not_judged(scenario.criteria));
+  caller.warn(scoring::not_asked(scenario.criteria, names));
+  caller.warn(scoring::not_judged(scenario.criteria));
 }
 
 bench::RunEnd watch(const scenario::Scenario& scenario, const Frames& frames,
                     std::vector<Watching>& all, Caller& caller) {
   const auto progress = caller.progress(scenario.name, scenario.frames, "frames");
-  std::vector<bench::Watcher> watchers;
+  std::vector<bench::DetectorRun> detectors;
   for (Watching& one : all) {
-    watchers.push_back(
-        {*one.detector, [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+    detectors.push_back(
+        {*one.detector, [&](const recording::FrameRecord& frame, const cv::Mat3b& image) {
            caller.check();
            one.result->add(frame, image);
            progress->show(frame.index + 1);
          }});
   }
-  return frames.run(watchers);
+  return frames.run(detectors);
 }
 
 /// Writes the files that depend on all frames, and puts all results in their places.
 /// \return the figures of each detector.
-std::vector<bench::Metrics> finish(const RunRequest& request, const scenario::Scenario& scenario,
-                                   const Frames& frames, const bench::RunEnd& end,
-                                   std::vector<Watching>& all, Caller& caller) {
-  std::vector<bench::Metrics> metrics;
-  std::vector<bench::Output*> outputs;
+std::vector<scoring::Metrics> finish(const RunRequest& request, const scenario::Scenario& scenario,
+                                     const Frames& frames, const bench::RunEnd& end,
+                                     std::vector<Watching>& all, Caller& caller) {
+  std::vector<scoring::Metrics> metrics;
+  std::vector<files::Output*> outputs;
   for (Watching& one : all) {
     const bool is_own = &one == &all.front();
     metrics.push_back(one.result->finish(end.warnings));
@@ -323,7 +306,7 @@ std::vector<bench::Metrics> finish(const RunRequest& request, const scenario::Sc
     outputs.push_back(&one.result->output());
   }
   caller.check();
-  bench::commit_all(outputs);
+  files::commit_all(outputs);
   return metrics;
 }
 
@@ -341,7 +324,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   std::optional<replay::Playback> playback;
   if (scenario.recording) scenario = playback.emplace(scenario).scenario();
   std::vector<Watching> all = watching(request, scenario);
-  bench::require_known_metrics(scenario.criteria);
+  scoring::require_known_metrics(scenario.criteria);
   const Frames frames = frames_of(request, scenario, playback ? &*playback : nullptr);
   make_detectors(request, scenario, frames, all, caller);
   open_results(request, scenario, frames, all);
@@ -349,20 +332,20 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   const bench::RunEnd end = watch(scenario, frames, all, caller);
   caller.warn(frames.missing());
   caller.check();
-  std::vector<bench::Metrics> metrics = finish(request, scenario, frames, end, all, caller);
+  std::vector<scoring::Metrics> metrics = finish(request, scenario, frames, end, all, caller);
 
   const Watching& own = all.front();
-  caller.warn(bench::lines_of(own.result->warned()));
+  caller.warn(recording::lines_of(own.result->warned()));
   if (playback && request.recorded.empty()) {
-    for (const std::string& line : playback->told()) caller.tell(line);
+    for (const std::string& line : playback->remarks()) caller.tell(line);
   }
   for (const std::string& line : end.diagnostics.front().lines()) caller.tell(line);
-  for (const std::string& line : own.detector->told()) caller.tell(line);
+  for (const std::string& line : own.detector->remarks()) caller.tell(line);
   RunMade made;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto asked = bench::asked_of(all[i].spec.name, i == 0, scenario.criteria);
+    const auto asked = scoring::asked_of(all[i].spec.name, i == 0, scenario.criteria);
     made.detectors.push_back({.name = all[i].spec.name,
-                              .criteria = bench::judge(asked, metrics[i]),
+                              .criteria = scoring::judge(asked, metrics[i]),
                               .metrics = std::move(metrics[i]),
                               .folder = all[i].result->output().target()});
   }

@@ -31,7 +31,7 @@ struct RunRequest {
   DetectorChoice detector = {};
   std::vector<std::string> beside = {};  ///< "detector=folder" of further detectors
   std::string recorded = {};  ///< folder of an earlier run that provides the frames; "": simulate
-  bench::Keep keep = bench::Keep::all;
+  output::Keep keep = output::Keep::all;
   bool gzip = false;  ///< compress layers and truth
   bool video = true;
   bool events = false;
@@ -47,8 +47,8 @@ Options options_of(RunRequest& request);
 /// What a detector has reached in a run.
 struct DetectorMade {
   std::string name;
-  std::vector<bench::JudgedCriterion> criteria;
-  bench::Metrics metrics;
+  std::vector<scoring::JudgedCriterion> criteria;
+  scoring::Metrics metrics;
   std::filesystem::path folder;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -21,7 +20,7 @@ namespace {
 void refuse_folder_of_runs(const std::filesystem::path& folder) {
   constexpr int kDeepest = 3;  // SUITE/runs/NAME/seed-N
   const auto is_run = [](const std::filesystem::path& one) {
-    return std::filesystem::exists(bench::stored(one, bench::kLayersFile));
+    return std::filesystem::exists(recording::stored(one, recording::kLayersFile));
   };
   if (is_run(folder)) return;
   std::filesystem::recursive_directory_iterator entries(folder), end;
@@ -40,25 +39,25 @@ class StoredRun {
  public:
   explicit StoredRun(const std::filesystem::path& folder) : frames_(checked(folder)) {
     // The file is optional; without it the frames have no times.
-    if (std::filesystem::exists(folder / bench::kFramesFile)) {
-      times_.emplace(folder / bench::kFramesFile);
+    if (std::filesystem::exists(folder / scoring::kFramesFile)) {
+      times_.emplace(folder / scoring::kFramesFile);
     }
   }
 
-  const bench::RunInfo& info() const { return frames_.run(); }
+  const recording::RunInfo& info() const { return frames_.run(); }
 
   template <class Use>
   void for_each(const Use& use) {
-    for (bench::FrameRecord frame; frames_.next(frame);) {
+    for (recording::FrameRecord frame; frames_.next(frame);) {
       if (times_) times_->read(frame);
       use(frame);
     }
     if (times_) times_->finish();
   }
 
-  bench::Metrics score() {
-    bench::Scorer scorer(info());
-    for_each([&](const bench::FrameRecord& frame) { scorer.add(frame); });
+  scoring::Metrics score() {
+    scoring::Scorer scorer(info());
+    for_each([&](const recording::FrameRecord& frame) { scorer.add(frame); });
     return scorer.metrics(info().warnings);
   }
 
@@ -72,8 +71,8 @@ class StoredRun {
     return folder;
   }
 
-  bench::RecordingReader frames_;
-  std::optional<bench::TimesReader> times_;
+  recording::RecordingReader frames_;
+  std::optional<scoring::TimesReader> times_;
 };
 
 /// Scores every run of a suite again.
@@ -104,25 +103,25 @@ Scored score(const ScoreRequest& request, Caller& caller) {
     return {.suite = score_suite(request, caller)};
   }
   StoredRun stored(request.sequence);
-  std::optional<bench::Detections> detections;
+  std::optional<recording::Detections> detections;
   if (!request.detections.empty()) {
-    bench::Recording whole{stored.info(), {}};
-    stored.for_each([&](const bench::FrameRecord& frame) { whole.frames.push_back(frame); });
-    detections = bench::read_detections(request.detections, std::move(whole));
-    for (const std::string& line : bench::lines_of(detections->counts)) caller.tell(line);
+    recording::Recording whole{stored.info(), {}};
+    stored.for_each([&](const recording::FrameRecord& frame) { whole.frames.push_back(frame); });
+    detections = recording::read_detections(request.detections, std::move(whole));
+    for (const std::string& line : recording::lines_of(detections->counts)) caller.tell(line);
   }
-  std::vector<bench::Output*> outputs;
-  std::optional<bench::Output> figures, verdicts;
-  const auto add = [&](std::optional<bench::Output>& output, const std::string& file) {
-    if (!file.empty()) outputs.push_back(&output.emplace(file, bench::overwrite(request.force)));
+  std::vector<files::Output*> outputs;
+  std::optional<files::Output> figures, verdicts;
+  const auto add = [&](std::optional<files::Output>& output, const std::string& file) {
+    if (!file.empty()) outputs.push_back(&output.emplace(file, files::overwrite(request.force)));
   };
   add(figures, request.out);
   add(verdicts, request.write_detections);
   Scored scored{.run = detections ? detections->recording : stored.info()};
-  bench::Scorer scorer(scored.run);
-  std::optional<bench::DetectionsWriter> writer;
+  scoring::Scorer scorer(scored.run);
+  std::optional<recording::DetectionsWriter> writer;
   if (verdicts) writer.emplace(verdicts->staging(), scored.run);
-  const auto take = [&](const bench::FrameRecord& frame) {
+  const auto take = [&](const recording::FrameRecord& frame) {
     scorer.add(frame);
     if (writer) writer->write(frame);
   };
@@ -134,9 +133,9 @@ Scored score(const ScoreRequest& request, Caller& caller) {
   scored.frames = scorer.frames();
   scored.metrics = scorer.metrics(scored.run.warnings);
   caller.check();
-  if (figures) bench::write_metrics(figures->staging(), scored.metrics);
+  if (figures) scoring::write_metrics(figures->staging(), scored.metrics);
   if (writer) writer->close();
-  bench::commit_all(outputs);
+  files::commit_all(outputs);
   return scored;
 }
 

@@ -24,9 +24,9 @@ Options options_of(ScoreRequest& request);
 
 /// The figures of a run; of a suite only `suite` is set.
 struct Scored {
-  bench::RunInfo run = {};
+  recording::RunInfo run = {};
   int frames = 0;
-  bench::Metrics metrics = {};
+  scoring::Metrics metrics = {};
   std::optional<suite::SuiteResult> suite = {};  ///< with the figures of all runs anew
 };
 

@@ -7,13 +7,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "scenarios/input/inputs_read.h"
-#include "scenarios/input/message.h"
-#include "scenarios/input/sha256.h"
 #include "scenarios/scenes.h"
 #include "tools/app/how_made.h"
 #include "tools/app/run.h"
@@ -22,10 +19,7 @@
 #include "tools/comparators/detectors.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
-#include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
-#include "tools/suite/plan.h"
-#include "tools/suite/suite_run.h"
 
 namespace lcs::app {
 namespace {
@@ -122,7 +116,7 @@ void require_detections(const fs::path& folder, const SuitePlan& planned) {
 
 /// Leaves only the runs of the requested part.
 /// \param whole all runs: scenarios with their seeds. \param seconds of each run.
-suite::PartOf choose_part(const SuiteRequest& request, suite::Runs whole,
+suite::PartOf choose_part(const SuiteRequest& request, suite::SuiteRuns whole,
                           const std::vector<double>& seconds,
                           std::set<std::pair<std::string, std::uint64_t>>& chosen) {
   const suite::Shard shard = suite::shard_of(request.shard);
@@ -147,7 +141,7 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
   SuitePlan planned;
   std::set<std::pair<std::string, std::uint64_t>> runs;
   if (!request.shard.empty()) {
-    suite::Runs whole;
+    suite::SuiteRuns whole;
     std::vector<double> seconds;
     for (const worlds::Kept& one : chosen) {
       auto& [name, own] = whole.emplace_back(one.file.stem().string(), 0);
@@ -163,17 +157,16 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
       return first == runs.end() || first->first != one.file.stem();
     });
   }
-  draw_worlds(chosen, jobs_at_once(request.jobs), caller);
-  std::vector<fs::path> files;
-  for (const worlds::Kept& one : chosen) files.push_back(one.file);
-  planned.plan = suite::plan(
-      {.paths = files, .group = request.group, .filter = {}, .sets = request.sets, .seeds = seeds});
+  planned.plan = suite::plan({.paths = draw_worlds(chosen, jobs_at_once(request.jobs), caller),
+                              .group = request.group,
+                              .sets = request.sets,
+                              .seeds = seeds});
   if (planned.part_of) suite::keep_runs(planned.plan, runs);
   return planned;
 }
 
-suite::Runs runs_of(const std::vector<suite::PlannedScenario>& plan) {
-  suite::Runs runs;
+suite::SuiteRuns runs_of(const std::vector<suite::PlannedScenario>& plan) {
+  suite::SuiteRuns runs;
   for (const suite::PlannedScenario& one : plan) runs.emplace_back(one.name, one.seeds);
   return runs;
 }
@@ -224,24 +217,24 @@ nlohmann::ordered_json facts_of(const SuiteRequest& request, const SuitePlan& pl
 }
 
 /// Writes run.json at once, so that a kill leaves no part of it.
-void write_how_made(const bench::Output& folder, const SuiteRequest& request,
-                    const bench::Provenance& provenance) {
+void write_how_made(const files::Output& folder, const SuiteRequest& request,
+                    const files::Provenance& provenance) {
   app::write_how_made(folder.work(), suite::shell_line(arguments_of(request)), provenance);
-  fs::rename(folder.work() / bench::kHowMadeFile, folder.staging() / bench::kHowMadeFile);
+  fs::rename(folder.work() / files::kHowMadeFile, folder.staging() / files::kHowMadeFile);
 }
 
 /// Goes on with an unfinished suite of the same provenance, or begins anew.
 /// \throws std::runtime_error if there is an unfinished suite of another one.
-void begin(bench::Output& folder, const bench::Provenance& provenance,
+void begin(files::Output& folder, const files::Provenance& provenance,
            const SuiteRequest& request) {
   const fs::path& staging = folder.staging();
-  if (request.anew || !fs::exists(staging / bench::kHowMadeFile)) {
+  if (request.anew || !fs::exists(staging / files::kHowMadeFile)) {
     if (!fs::is_empty(staging)) folder.empty();
     return write_how_made(folder, request, provenance);
   }
-  const bench::Provenance there = bench::read_how_made(staging);
-  std::string what = bench::difference(there, provenance);
-  if (what.empty()) what = bench::changed_since(there);
+  const files::Provenance there = files::read_how_made(staging);
+  std::string what = files::difference(there, provenance);
+  if (what.empty()) what = files::changed_since(there);
   if (what.empty()) return;
   throw std::runtime_error(
       fmt::format("{} holds the runs of an unfinished suite, and {}; finish it by its own command, "
@@ -249,25 +242,13 @@ void begin(bench::Output& folder, const bench::Provenance& provenance,
                   staging.parent_path().string(), what));
 }
 
-}  // namespace
-
-SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
-  std::optional<suite::SuiteResult> times;
-  if (!request.times.empty()) times = suite::read_suite(request.times);
-  const int seeds = request.seeds.value_or(of_worlds(request) ? 1 : 3);
-  return of_worlds(request) ? plan_worlds(request, seeds, times, caller)
-                            : plan_scenarios(request, seeds, times);
-}
-
-namespace {
-
 /// A run with one of the detectors, without its outputs.
 RunRequest run_of(const SuiteRequest& request, const suite::PlannedScenario& planned,
-                  std::uint64_t seed, const suite::SuiteWatcher& watcher,
+                  std::uint64_t seed, const suite::SuiteDetector& detector,
                   const fs::path& recordings) {
   RunRequest run{.scenario = planned.file.string(), .seed = seed, .sets = planned.sets};
-  if (watcher.is_own) run.detector = request.detector;
-  run.detector.name = watcher.detector == "lcs" ? "" : watcher.detector;
+  if (detector.is_own) run.detector = request.detector;
+  run.detector.name = detector.detector == "lcs" ? "" : detector.detector;
   if (!run.detector.detections.empty()) {
     const fs::path file = suite::detections_of(planned.name, seed);
     run.detector.detections = (fs::path(run.detector.detections) / file).string();
@@ -280,16 +261,16 @@ RunRequest run_of(const SuiteRequest& request, const suite::PlannedScenario& pla
 
 /// The arguments of a child: the run with the first detector, beside which the others are run.
 Texts child_of(const SuiteRequest& request, const suite::PlannedScenario& planned,
-               std::uint64_t seed, std::span<const suite::SuiteWatcher> watchers,
+               std::uint64_t seed, std::span<const suite::SuiteDetector> detectors,
                const fs::path& recordings) {
   const fs::path folder = suite::folder_of(planned, seed);
-  RunRequest run = run_of(request, planned, seed, watchers.front(), recordings);
-  run.out = (watchers.front().folder / folder).string();
+  RunRequest run = run_of(request, planned, seed, detectors.front(), recordings);
+  run.out = (detectors.front().folder / folder).string();
   run.keep = request.keep;
   run.gzip = true;
   run.video = false;
-  run.events = request.keep != bench::Keep::figures;
-  for (const suite::SuiteWatcher& other : watchers.subspan(1)) {
+  run.events = request.keep != output::Keep::figures;
+  for (const suite::SuiteDetector& other : detectors.subspan(1)) {
     run.beside.push_back(other.detector + '=' + (other.folder / folder).string());
   }
   Texts words = arguments_of(run);
@@ -300,156 +281,155 @@ Texts child_of(const SuiteRequest& request, const suite::PlannedScenario& planne
 /// A suite while it is made.
 class Making {
  public:
-  Making(Caller& caller, SuiteWatch& watch) : caller_(caller), watch_(watch) {}
+  Making(const SuiteRequest& request, Caller& caller, SuiteWatch& watch)
+      : request_(request), caller_(caller), watch_(watch) {}
 
-  SuiteMade made(const SuiteRequest& request);
+  SuiteMade made() {
+    plan();
+    std::string recorded;
+    if (!request_.recorded.empty()) {
+      recorded =
+          fmt::format("{}, {}", request_.recorded, suite::read_suite(request_.recorded).version);
+    }
+    provenance_ = files::provenance_of(facts_of(request_, planned_));
+    const std::optional<suite::SuiteResult> baseline = baseline_of(request_.place);
+    note_longer(request_.place.out, request_.place.is_named(), "runs",
+                provenance_.facts.at("runs").get<std::size_t>(), caller_);
+    files::Output folder(request_.place.out, suite::suite_files(), files::Unfinished::kept);
+    begin(folder, provenance_, request_);
+    try {
+      std::vector<suite::SuiteResult> others = run_all(folder);
+      suite::SuiteResult own = std::move(others.front());
+      others.erase(others.begin());
+      watch_.wipe();
+      own.recorded = recorded;
+      write_how_made(folder, request_, provenance_);
+      if (of_worlds(request_)) write_sheets(folder.staging(), planned_.plan, own, caller_);
+      return finish_suite(folder, request_.place, std::move(own), std::move(others), baseline,
+                          caller_);
+    } catch (const Interrupted&) {
+      watch_.wipe();
+      if (whole_ == 0) throw;
+      throw Interrupted(fmt::format(
+          "interrupted; {} of {} runs are kept, and the same command goes on from there", whole_,
+          total_));
+    }
+  }
 
  private:
-  void plan(const SuiteRequest& request);
-  std::vector<suite::SuiteResult> run_all(const SuiteRequest& request, bench::Output& folder);
-  std::vector<suite::SuiteResult> run(const SuiteRequest& request, bench::Output& folder,
-                                      const std::vector<std::string>& detectors,
-                                      const fs::path& recordings);
-  std::vector<suite::SuiteWatcher> watchers(const SuiteRequest& request, bench::Output& folder,
-                                            const std::vector<std::string>& detectors) const;
+  /// Checks the request, and warns of likely mistakes.
+  void plan() {
+    const comparators::DetectorSpec spec = app::spec_of(request_.detector);
+    own_ = spec.name;
+    const std::set<std::string> watching = names_of_all(request_, own_);
+    if (!request_.recorded.empty()) comparators::require_corners_suffice(spec);
+    planned_ = plan_suite(request_, caller_);
+    if (!request_.detector.detections.empty()) {
+      require_detections(request_.detector.detections, planned_);
+    }
+    caller_.warn(seldom_meant(planned_.plan, spec));
+    caller_.warn(scoring::not_asked(criteria_of(planned_.plan), watching));
+  }
 
+  /// Where the runs of each detector go. Runs of which only the figures are kept are no part of the
+  /// result, and stay until it is committed.
+  std::vector<suite::SuiteDetector> detectors_in(files::Output& folder,
+                                                 const std::vector<std::string>& names) const {
+    const bool are_kept = request_.keep != output::Keep::figures;
+    std::vector<suite::SuiteDetector> all;
+    for (const std::string& name : names) {
+      const fs::path part = part_of(name, own_);
+      all.push_back({name, (are_kept ? folder.staging() : folder.work()) / part, name == own_});
+      fs::create_directories(all.back().folder);
+      fs::create_directories(folder.staging() / part);
+    }
+    return all;
+  }
+
+  std::vector<suite::SuiteResult> run(files::Output& folder,
+                                      const std::vector<std::string>& detectors,
+                                      const fs::path& recordings) {
+    std::vector<suite::SuiteResult> results = suite::run_suite(
+        planned_.plan,
+        {.detectors = detectors_in(folder, detectors),
+         .run_of =
+             [&](const auto& planned, std::uint64_t seed, const auto& detector) {
+               return arguments_of(run_of(request_, planned, seed, detector, recordings));
+             },
+         .child_of =
+             [&](const auto& planned, std::uint64_t seed, const auto& all) {
+               return child_of(request_, planned, seed, all, recordings);
+             },
+         .sets = request_.sets,
+         .version = version_line(),
+         .jobs = jobs_at_once(request_.jobs),
+         .former = former_suite(folder.target() / part_of(detectors.front(), own_)),
+         .provenance = provenance_,
+         .on_begin =
+             [&](std::size_t there) {
+               whole_ = there;
+               if (there == 0) return;
+               caller_.note(fmt::format("going on, with {} of the runs there already", there));
+             },
+         .on_result = [&] { folder.keep(); },
+         .on_run =
+             [&](const auto& done, const std::string& scenario, const auto& runs) {
+               whole_ = done.done;
+               total_ = done.total;
+               watch_.finished(done, scenario, detectors, runs);
+             },
+         .on_tick =
+             [&](const suite::SuiteProgress& now) {
+               total_ = now.total;
+               caller_.check();
+               watch_.show(now);
+             }});
+    caller_.check();
+    for (suite::SuiteResult& result : results) {
+      if (request_.keep == output::Keep::figures) forget_folders(result);
+      result.part_of = planned_.part_of;
+      if (!of_worlds(request_)) continue;
+      result.split = request_.worlds.split;
+      add_origins(result);
+    }
+    return results;
+  }
+
+  /// The results, the own detector's first. Detectors that need pictures cannot use a recording:
+  /// they simulate in runs of their own.
+  std::vector<suite::SuiteResult> run_all(files::Output& folder) {
+    std::vector<std::string> beside_own{own_}, apart;
+    for (const std::string& name : request_.beside) {
+      const bool looks = comparators::spec_of(name).detector.sees_pictures;
+      (looks && !request_.recorded.empty() ? apart : beside_own).push_back(name);
+    }
+    std::vector<suite::SuiteResult> all = run(folder, beside_own, request_.recorded);
+    if (!apart.empty()) std::ranges::move(run(folder, apart, ""), std::back_inserter(all));
+    for (std::size_t i = 1; i < all.size(); ++i) all[0].beside.push_back(all[i].detector);
+    return all;
+  }
+
+  const SuiteRequest& request_;
   Caller& caller_;
   SuiteWatch& watch_;
   std::string own_;  ///< name of the suite's own detector
   SuitePlan planned_;
-  bench::Provenance provenance_;
+  files::Provenance provenance_;
   std::size_t whole_ = 0, total_ = 0;  ///< runs
 };
 
-/// Checks the request, and warns of likely mistakes.
-void Making::plan(const SuiteRequest& request) {
-  const comparators::DetectorSpec spec = app::spec_of(request.detector);
-  own_ = spec.name;
-  const std::set<std::string> watching = names_of_all(request, own_);
-  if (!request.recorded.empty()) comparators::require_corners_suffice(spec);
-  planned_ = plan_suite(request, caller_);
-  if (!request.detector.detections.empty()) {
-    require_detections(request.detector.detections, planned_);
-  }
-  caller_.warn(seldom_meant(planned_.plan, spec));
-  caller_.warn(bench::not_asked(criteria_of(planned_.plan), watching));
-}
-
-/// Where the runs of each detector go. Runs of which only the figures are kept are no part of the
-/// result, and stay until it is committed.
-std::vector<suite::SuiteWatcher> Making::watchers(const SuiteRequest& request,
-                                                  bench::Output& folder,
-                                                  const std::vector<std::string>& detectors) const {
-  const bool are_kept = request.keep != bench::Keep::figures;
-  std::vector<suite::SuiteWatcher> all;
-  for (const std::string& name : detectors) {
-    const fs::path part = part_of(name, own_);
-    all.push_back({name, (are_kept ? folder.staging() : folder.work()) / part, name == own_});
-    fs::create_directories(all.back().folder);
-    fs::create_directories(folder.staging() / part);
-  }
-  return all;
-}
-
-std::vector<suite::SuiteResult> Making::run(const SuiteRequest& request, bench::Output& folder,
-                                            const std::vector<std::string>& detectors,
-                                            const fs::path& recordings) {
-  std::vector<suite::SuiteResult> results = suite::run_suite(
-      planned_.plan,
-      {.watchers = watchers(request, folder, detectors),
-       .run_of =
-           [&](const auto& planned, std::uint64_t seed, const auto& watcher) {
-             return arguments_of(run_of(request, planned, seed, watcher, recordings));
-           },
-       .child_of =
-           [&](const auto& planned, std::uint64_t seed, const auto& watchers) {
-             return child_of(request, planned, seed, watchers, recordings);
-           },
-       .sets = request.sets,
-       .version = version_line(),
-       .jobs = jobs_at_once(request.jobs),
-       .former = former_suite(folder.target() / part_of(detectors.front(), own_)),
-       .provenance = provenance_,
-       .on_begin =
-           [&](std::size_t there) {
-             whole_ = there;
-             if (there == 0) return;
-             caller_.note(fmt::format("going on, with {} of the runs there already", there));
-           },
-       .on_result = [&] { folder.keep(); },
-       .on_run =
-           [&](const auto& done, const std::string& scenario, const auto& runs) {
-             whole_ = done.done;
-             total_ = done.total;
-             watch_.finished(done, scenario, detectors, runs);
-           },
-       .on_tick =
-           [&](const suite::SuiteProgress& now) {
-             total_ = now.total;
-             caller_.check();
-             watch_.show(now);
-           }});
-  caller_.check();
-  for (suite::SuiteResult& result : results) {
-    if (request.keep == bench::Keep::figures) forget_folders(result);
-    result.part_of = planned_.part_of;
-    if (!of_worlds(request)) continue;
-    result.split = request.worlds.split;
-    add_origins(result);
-  }
-  return results;
-}
-
-/// The results, the own detector's first. Detectors that need pictures cannot use a recording: they
-/// simulate in runs of their own.
-std::vector<suite::SuiteResult> Making::run_all(const SuiteRequest& request,
-                                                bench::Output& folder) {
-  std::vector<std::string> beside_own{own_}, apart;
-  for (const std::string& name : request.beside) {
-    const bool looks = comparators::spec_of(name).detector.sees_pictures;
-    (looks && !request.recorded.empty() ? apart : beside_own).push_back(name);
-  }
-  std::vector<suite::SuiteResult> all = run(request, folder, beside_own, request.recorded);
-  if (!apart.empty()) std::ranges::move(run(request, folder, apart, ""), std::back_inserter(all));
-  for (std::size_t i = 1; i < all.size(); ++i) all[0].beside.push_back(all[i].detector);
-  return all;
-}
-
-SuiteMade Making::made(const SuiteRequest& request) {
-  plan(request);
-  std::string recorded;
-  if (!request.recorded.empty()) {
-    recorded = fmt::format("{}, {}", request.recorded, suite::read_suite(request.recorded).version);
-  }
-  provenance_ = bench::provenance_of(facts_of(request, planned_));
-  const std::optional<suite::SuiteResult> baseline = baseline_of(request.place);
-  note_longer(request.place.out, request.place.is_named(), "runs",
-              provenance_.facts.at("runs").get<std::size_t>(), caller_);
-  bench::Output folder(request.place.out, suite::suite_files(), bench::Unfinished::kept);
-  begin(folder, provenance_, request);
-  try {
-    std::vector<suite::SuiteResult> others = run_all(request, folder);
-    suite::SuiteResult own = std::move(others.front());
-    others.erase(others.begin());
-    watch_.wipe();
-    own.recorded = recorded;
-    write_how_made(folder, request, provenance_);
-    if (of_worlds(request)) write_sheets(folder.staging(), planned_.plan, own, caller_);
-    return finish_suite(folder, request.place, std::move(own), std::move(others), baseline,
-                        caller_);
-  } catch (const Interrupted&) {
-    watch_.wipe();
-    if (whole_ == 0) throw;
-    throw Interrupted(
-        fmt::format("interrupted; {} of {} runs are kept, and the same command goes on from there",
-                    whole_, total_));
-  }
-}
-
 }  // namespace
 
+SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
+  std::optional<suite::SuiteResult> times;
+  if (!request.times.empty()) times = suite::read_suite(request.times);
+  const int seeds = request.seeds.value_or(of_worlds(request) ? 1 : 3);
+  return of_worlds(request) ? plan_worlds(request, seeds, times, caller)
+                            : plan_scenarios(request, seeds, times);
+}
+
 SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
-  return Making(caller, watch).made(request);
+  return Making(request, caller, watch).made();
 }
 
 }  // namespace lcs::app

@@ -29,7 +29,7 @@ struct SuiteRequest {
   std::vector<std::string> sets;    ///< "key=value"
   std::vector<std::string> beside;  ///< further detectors on the same frames
   std::string recorded;             ///< earlier suite's folder, for its frames; "": simulate
-  bench::Keep keep = bench::Keep::all;
+  output::Keep keep = output::Keep::all;
   std::string shard;  ///< "2/5": only the second of five parts; "": all
   std::string times;  ///< earlier suite whose durations balance the parts; "": none
   bool anew = false;  ///< drop the runs of an unfinished suite

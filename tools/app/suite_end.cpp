@@ -11,7 +11,6 @@
 #include "tools/report/report_page.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/beside_table.h"
-#include "tools/suite/comparison.h"
 #include "tools/suite/junit.h"
 
 namespace lcs::app {
@@ -24,12 +23,12 @@ std::optional<suite::SuiteResult> baseline_of(const SuitePlace& place) {
 
 std::vector<std::string> other_inputs(const fs::path& before, const fs::path& after) {
   for (const fs::path& suite : {before, after}) {
-    if (!fs::exists(suite / bench::kHowMadeFile)) return {};
+    if (!fs::exists(suite / files::kHowMadeFile)) return {};
   }
   const auto read_by = [](const fs::path& suite) {
-    return bench::Provenance{.facts = {}, .read = bench::read_how_made(suite).read};
+    return files::Provenance{.facts = {}, .read = files::read_how_made(suite).read};
   };
-  const std::string what = bench::difference(read_by(before), read_by(after));
+  const std::string what = files::difference(read_by(before), read_by(after));
   if (what.empty()) return {};
   return {fmt::format("{} and {} were not made of the same files: {}", before.string(),
                       after.string(), what)};
@@ -39,7 +38,8 @@ fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
-void add_part(nlohmann::ordered_json& facts, const std::string& shard, const suite::Runs& runs) {
+void add_part(nlohmann::ordered_json& facts, const std::string& shard,
+              const suite::SuiteRuns& runs) {
   std::size_t count = 0;
   nlohmann::ordered_json scenarios = nlohmann::ordered_json::array();
   for (const auto& [name, seeds] : runs) {
@@ -51,7 +51,7 @@ void add_part(nlohmann::ordered_json& facts, const std::string& shard, const sui
   facts["scenarios"] = std::move(scenarios);
 }
 
-SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::SuiteResult result,
+SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::SuiteResult result,
                        std::vector<suite::SuiteResult> others,
                        const std::optional<suite::SuiteResult>& baseline, Caller& caller) {
   for (const suite::SuiteResult& other : others) {
@@ -61,22 +61,21 @@ SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::Su
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   if (!others.empty()) {
-    bench::write_file(folder.staging() / suite::kStandingFile,
+    files::write_file(folder.staging() / suite::kStandingFile,
                       suite::standing_table(result, others));
   }
   const suite::SuiteInFolder made{result, folder.staging()};
   std::optional<suite::SuiteInFolder> before;
   std::optional<suite::Comparison> comparison;
+  std::optional<report::Against> against;
   if (baseline) {
     before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(place.baseline)});
     caller.warn(other_inputs(before->folder, folder.staging()));
     comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
+    against.emplace(report::Against{*before, *comparison});
   }
-  const suite::SuiteInFolder* beside = before ? &*before : nullptr;
-  const suite::Verdict verdict =
-      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr, others);
-  std::optional<report::Against> against;
-  if (before) against.emplace(report::Against{*before, *comparison});
+  const suite::SuiteVerdict verdict = suite::verdict_of(
+      made, before ? &*before : nullptr, comparison ? &*comparison : nullptr, others);
   report::write_report(folder.staging() / report::kReportFile, made, verdict,
                        against ? &*against : nullptr);
   if (!result.split.empty()) {

@@ -31,7 +31,7 @@ struct SuiteMade {
   suite::SuiteResult result;
   std::vector<suite::SuiteResult> others;       ///< of the detectors of `beside`
   std::optional<suite::Comparison> comparison;  ///< with the baseline, if there is one
-  suite::Verdict verdict;
+  suite::SuiteVerdict verdict;
   std::filesystem::path folder;
 };
 
@@ -47,7 +47,8 @@ std::vector<std::string> other_inputs(const std::filesystem::path& before,
 std::filesystem::path part_of(const std::string& detector, const std::string& own);
 
 /// Adds to the facts of a suite's provenance what differs between its parts.
-void add_part(nlohmann::ordered_json& facts, const std::string& shard, const suite::Runs& runs);
+void add_part(nlohmann::ordered_json& facts, const std::string& shard,
+              const suite::SuiteRuns& runs);
 
 /// The names of these facts.
 inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", "scenarios"};
@@ -56,7 +57,7 @@ inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", 
 /// \param folder has the runs, and for worlds their pictures.
 /// \param others the results of the detectors of `beside`.
 /// \throws bench::OutputError, std::runtime_error
-SuiteMade finish_suite(bench::Output& folder, const SuitePlace& place, suite::SuiteResult result,
+SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::SuiteResult result,
                        std::vector<suite::SuiteResult> others,
                        const std::optional<suite::SuiteResult>& baseline, Caller& caller);
 

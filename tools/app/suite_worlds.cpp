@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "scenarios/load.h"
-#include "scenes/worlds/worlds.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/app/world.h"
 #include "tools/app/world_folder.h"
@@ -31,10 +30,10 @@ constexpr const char* kFolder = "out/worlds";
 
 /// Pictures and truth of a run's sampled frames; absent if the run has no pictures.
 std::optional<preview::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
-  if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
-  const bench::FramePictures pictures(run / bench::kPicturesFile, image_px);
+  if (!fs::exists(run / output::kPicturesFile)) return std::nullopt;
+  const output::FramePictures pictures(run / output::kPicturesFile, image_px);
   const auto shown = preview::frames_shown(static_cast<int>(pictures.size()));
-  const auto objects = bench::read_object_truth(run, shown);
+  const auto objects = recording::read_object_truth(run, shown);
   preview::Shots shots;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     shots[i].frame = shown[i];
@@ -60,7 +59,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
   } catch (const input::Error& error) {  // keep the runs without this picture
     caller.warn({error.what()});
   }
-  bench::write_file(folder / report::sheet_path(scenario),
+  files::write_file(folder / report::sheet_path(scenario),
                     sim::encode_jpeg(preview::contact_sheet(*shots, above, kColumns), kQuality));
 }
 
@@ -85,14 +84,17 @@ std::size_t jobs_at_once(int jobs) {
                   : std::max(1U, std::thread::hardware_concurrency());
 }
 
-void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Caller& caller) {
+std::vector<fs::path> draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs,
+                                  Caller& caller) {
+  std::vector<fs::path> files;
   std::vector<std::vector<std::string>> commands;
   for (const auto& [choice, file] : chosen) {
+    files.push_back(file);
     const fs::path world = file.parent_path();
     if (fs::exists(world) && !fs::is_empty(world)) {
-      const std::string what = bench::first_difference(world);
+      const std::string what = files::first_difference(world);
       if (what.empty()) continue;
-      throw bench::OutputError(fmt::format(
+      throw files::OutputError(fmt::format(
           "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
     }
     fs::create_directories(world.parent_path());
@@ -103,11 +105,10 @@ void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Call
   suite::run_all(
       commands, jobs,
       [](std::size_t, const suite::Exit& exit) {
-        if (exit.code != 0 || exit.signal != 0) {
-          throw std::runtime_error(suite::complaint_of(exit));
-        }
+        if (!exit.is_fine()) throw std::runtime_error(suite::complaint_of(exit));
       },
       [&](const std::vector<std::size_t>&) { caller.check(); });
+  return files;
 }
 
 void add_origins(suite::SuiteResult& result) {

@@ -30,8 +30,10 @@ std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::s
 std::size_t jobs_at_once(int jobs);
 
 /// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.
+/// \return the scenario files of all of them.
 /// \throws bench::OutputError for a world that was edited, std::runtime_error.
-void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Caller& caller);
+std::vector<std::filesystem::path> draw_worlds(const std::vector<worlds::Kept>& chosen,
+                                               std::size_t jobs, Caller& caller);
 
 /// Adds to `result` how each world was drawn, from the worlds' scenario files.
 void add_origins(suite::SuiteResult& result);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -18,8 +17,6 @@
 #include "tools/files/output.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/evaluations.h"
-#include "tools/tune/record.h"
-#include "tools/tune/search.h"
 #include "tools/tune/trials.h"
 
 namespace lcs::app {
@@ -42,7 +39,7 @@ std::string about(std::vector<std::string> names, const tune::Trials& trials) {
   for (std::string& name : names)
     name = (suite::folder_of(name) / "").lexically_normal().parent_path();
   std::string first = trials.runs().front().scenario, last = first;
-  for (const bench::Recording& run : trials.runs()) {
+  for (const recording::Recording& run : trials.runs()) {
     first = std::min(first, run.scenario);
     last = std::max(last, run.scenario);
   }
@@ -75,14 +72,14 @@ void require_different(const TuneRequest& request) {
 }
 
 /// All that determines the figures of a search. The suites have been read.
-bench::Provenance provenance_of(const TuneRequest& request, const tune::Trials& trials,
+files::Provenance provenance_of(const TuneRequest& request, const tune::Trials& trials,
                                 const tune::SearchOptions& search) {
-  bench::Provenance::Json facts{{"suites", about(request.suites, trials)},
+  files::Provenance::Json facts{{"suites", about(request.suites, trials)},
                                 {"settings", request.sets},
                                 {"program", program_text()},
                                 {"program_sha256", program_sha256()}};
   tune::add_facts(facts, search);
-  return bench::provenance_of(std::move(facts));
+  return files::provenance_of(std::move(facts));
 }
 
 std::vector<std::string> learnt_keys() {
@@ -104,11 +101,6 @@ tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
   return found;
 }
 
-TuneRequest without_place(TuneRequest request) {
-  request.out = TuneRequest{}.out;
-  return request;
-}
-
 }  // namespace
 
 TuneMade tune(const TuneRequest& request, Caller& caller) {
@@ -119,17 +111,17 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
                                            request.seed};
   require_different(request);
   const tune::Trials trials(request.suites);
-  const bench::Provenance provenance = provenance_of(request, trials, search_options);
-  if (const std::string what = bench::changed_since(provenance); !what.empty()) {
+  const files::Provenance provenance = provenance_of(request, trials, search_options);
+  if (const std::string what = files::changed_since(provenance); !what.empty()) {
     throw std::runtime_error(what +
                              " it was read; wait until the process that writes to it has ended");
   }
   std::optional<tune::Trials> others;
   if (!request.validate.empty()) others.emplace(request.validate);
 
-  const fs::path out = bench::output_path(request.out);
+  const fs::path out = files::output_path(request.out);
   fs::create_directories(out);
-  const bench::FolderLock lock(out);
+  const files::FolderLock lock(out);
   if (!lock.is_held()) {
     throw std::runtime_error(fmt::format(
         "{} {}; choose another folder with --out", out.string(),
@@ -138,8 +130,8 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
                                            std::generic_category().message(lock.problem()))));
   }
   tune::Evaluations known(out / tune::kEvaluationsFile, provenance, keys);
-  bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
-  bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
+  files::Output preset_file(out / tune::kPresetFile, files::Overwrite::own);
+  files::Output record_file(out / tune::kRecordFile, files::Overwrite::own);
   tune::Found found;
   try {
     const auto progress = caller.progress("tune", request.evaluations, "evaluations");
@@ -161,14 +153,16 @@ TuneMade tune(const TuneRequest& request, Caller& caller) {
                       others->worth(best, check)});
   }
   caller.check();
+  TuneRequest in_any_place = request;
+  in_any_place.out = TuneRequest{}.out;
   const tune::Circumstances circumstances{
       fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
-      arguments_of(without_place(request))};
+      arguments_of(in_any_place)};
   std::string record = tune::record_text(found, stated, circumstances);
-  bench::write_file(preset_file.staging(),
+  files::write_file(preset_file.staging(),
                     tune::preset_text(with_other_learnt(found, start), circumstances));
-  bench::write_file(record_file.staging(), record);
-  bench::commit_all(std::array{&preset_file, &record_file});
+  files::write_file(record_file.staging(), record);
+  files::commit_all(std::array{&preset_file, &record_file});
   return {std::move(found), std::move(stated), std::move(record), out};
 }
 

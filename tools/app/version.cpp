@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 
@@ -21,11 +22,7 @@ std::string version_text() {
 }
 
 std::string version_line() {
-  std::string text = version_text();
-  for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n')) {
-    text.replace(i, 1, ", ");
-  }
-  return text;
+  return std::regex_replace(version_text(), std::regex("\n"), ", ");
 }
 
 std::string program_sha256() {

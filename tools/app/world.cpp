@@ -12,17 +12,16 @@ namespace lcs::app {
 WorldMade world(const WorldRequest& request, Caller& caller) {
   std::vector<std::string> pictures;
   if (!request.pictures.empty()) pictures = worlds::pictures_in(request.pictures);
-  worlds::World drawn = worlds::draw_world({request.family, request.seed}, pictures);
-  const std::filesystem::path target =
-      request.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
-                          : std::filesystem::path(request.out);
-  bench::Output folder(target, world_files());
+  worlds::DrawnWorld drawn = worlds::draw_world({request.family, request.seed}, pictures);
+  files::Output folder(
+      place_of(request.out, std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)),
+      world_files());
   write_world(drawn, folder.staging());
   if (request.sheet) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
     const cv::Mat3b sheet =
         preview::contact_sheet(preview::simulated_shots(scenario), preview::plan(drawn), 2);
-    bench::write_file(folder.staging() / kSheetFile,
+    files::write_file(folder.staging() / kSheetFile,
                       sequence::encode_png(sheet, sequence::PngFilter::sub));
   }
   caller.check();

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "scenes/worlds/worlds.h"
 #include "tools/app/caller.h"
@@ -25,7 +24,7 @@ Options options_of(WorldRequest& request);
 
 /// A world that is written, and its folder.
 struct WorldMade {
-  worlds::World world;
+  worlds::DrawnWorld world;
   std::filesystem::path folder;
 };
 

@@ -9,25 +9,25 @@
 
 namespace lcs::app {
 
-bench::ResultNames world_files() {
+files::ResultNames world_files() {
   return {"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kPlanFile, kSheetFile};
 }
 
-void write_world(const worlds::World& world, const std::filesystem::path& folder) {
+void write_world(const worlds::DrawnWorld& world, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "textures");
   std::filesystem::create_directories(folder / "meshes");
   for (const worlds::Texture& texture : world.textures) {
-    bench::write_file(folder / "textures" / (texture.name + ".png"),
+    files::write_file(folder / "textures" / (texture.name + ".png"),
                       sequence::encode_png(texture.picture, sequence::PngFilter::up));
   }
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
-    bench::write_file(folder / "meshes" / fmt::format("mesh_{}.obj", i),
+    files::write_file(folder / "meshes" / fmt::format("mesh_{}.obj", i),
                       worlds::obj_text(world.meshes[i]));
   }
-  bench::write_file(folder / kPlanFile,
+  files::write_file(folder / kPlanFile,
                     sequence::encode_png(preview::plan(world), sequence::PngFilter::up));
-  bench::write_file(folder / "scene.xml", worlds::scene_text(world));
-  bench::write_file(folder / (worlds::name_of(world) + ".yaml"), worlds::scenario_text(world));
+  files::write_file(folder / "scene.xml", worlds::scene_text(world));
+  files::write_file(folder / (worlds::name_of(world) + ".yaml"), worlds::scenario_text(world));
 }
 
 std::filesystem::path kept_world(const std::filesystem::path& folder,

@@ -16,7 +16,7 @@ SimulatedFrames::SimulatedFrames(const scenario::Scenario& scenario, sim::Simula
       rectifier_(simulation.calibration().optics.lens(),
                  simulation.calibration().optics.size_px()) {}
 
-bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
+bool SimulatedFrames::next(recording::FrameRecord& frame, cv::Mat3b& image) {
   // The renderer and MuJoCo have threads of their own.
   observation_ = timed<std::chrono::steady_clock>(frame.times.value().simulate_ms,
                                                   [&] { return simulation_.next(); });
@@ -36,7 +36,7 @@ bool SimulatedFrames::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::M
   return !rectifier_.is_pinhole();
 }
 
-void SimulatedFrames::label(FrameRecord& frame) {
+void SimulatedFrames::label(recording::FrameRecord& frame) {
   sim::FrameTruth& truth = observation_->truth;
   frame.corner_truth = timed(frame.times.value().truth_ms, [&] {
     return sim::label_corners(simulation_.calibration().camera, truth, frame.corners_px,
@@ -47,13 +47,13 @@ void SimulatedFrames::label(FrameRecord& frame) {
   rectifier_.rectify(truth.depth_m);
 }
 
-std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
-                             bool are_signatures_wanted) {
-  SeenFrame seen;
-  FrameRecord& frame = seen.record;
+std::optional<InputFrame> next_input_frame(FrameSource& source, CornerFinder& corners,
+                                           bool are_signatures_wanted) {
+  InputFrame seen;
+  recording::FrameRecord& frame = seen.record;
   cv::Mat3b& image = seen.image;
   cv::Mat1b& grey = seen.grey;
-  FrameTimes& times = frame.times.emplace();
+  recording::FrameTimes& times = frame.times.emplace();
   if (!source.next(frame, image)) return std::nullopt;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   frame.corners_px = timed(times.detect_ms, [&] { return corners.find(grey, source.events()); });
@@ -70,14 +70,14 @@ std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
   return seen;
 }
 
-void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
-          FrameRecord& frame) {
+void store_result(const FrameResult& said, double recording::FrameTimes::*step_time, double step_ms,
+                  recording::FrameRecord& frame) {
   frame.verdicts = said.verdicts;
   frame.reasons = said.reasons;
   frame.layers = said.layers;
   frame.gaps = said.gaps;
   if (step_time == nullptr) return;
-  FrameTimes times = frame.times.value_or(FrameTimes{});
+  recording::FrameTimes times = frame.times.value_or(recording::FrameTimes{});
   times.*step_time = step_ms;
   times.line_ms = said.times.line_ms;
   times.circle_ms = said.times.circle_ms;
@@ -85,8 +85,8 @@ void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms
   frame.times = times;
 }
 
-RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
-  RunInfo run;
+recording::RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
+  recording::RunInfo run;
   run.scenario = scenario.name;
   run.seed = scenario.seed;
   run.world = scenario.world;
@@ -95,26 +95,27 @@ RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simu
   return run;
 }
 
-void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
+void run_detector(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey,
+                  recording::FrameRecord& frame) {
   double step_ms = 0;
   const auto step = [&]() -> const FrameResult& {
     return detector.step({image, grey, frame.corners_px, frame.motion, frame.signatures,
                           frame.index, frame.t_ns, frame.gaps ? &*frame.gaps : nullptr});
   };
-  const bool is_process = detector.step_time() == &FrameTimes::process_ms;
+  const bool is_process = detector.step_time() == &recording::FrameTimes::process_ms;
   const FrameResult& said =
       is_process ? timed<std::chrono::steady_clock>(step_ms, step) : timed(step_ms, step);
-  note(said, detector.step_time(), step_ms, frame);
+  store_result(said, detector.step_time(), step_ms, frame);
   frame.masks = detector.masks();
 }
 
-void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
-                    const std::function<void(SeenFrame&)>& work, int threads) {
+void for_each_frame(const std::function<std::optional<InputFrame>()>& make,
+                    const std::function<void(InputFrame&)>& work, int threads) {
   if (threads == 1) {
-    while (std::optional<SeenFrame> seen = make()) work(*seen);
+    while (std::optional<InputFrame> seen = make()) work(*seen);
     return;
   }
-  for (std::optional<SeenFrame> seen = make(), next; seen; seen = std::move(next)) {
+  for (std::optional<InputFrame> seen = make(), next; seen; seen = std::move(next)) {
     std::future<void> worked = std::async(std::launch::async, work, std::ref(*seen));
     try {
       next = make();
@@ -126,37 +127,37 @@ void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
   }
 }
 
-RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers,
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const DetectorRun> detectors,
            int threads) {
   const bool are_signatures_wanted = std::ranges::any_of(
-      watchers, [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
+      detectors, [](const DetectorRun& each) { return each.detector.wants_signatures(); });
 
-  const auto make = [&] { return see(source, corners, are_signatures_wanted); };
-  const auto work = [&](const SeenFrame& seen) {
-    for (const Watcher& watcher : watchers) {
-      FrameRecord frame = seen.record;
-      if (!watcher.detector.wants_signatures()) {  // as in a run of its own
+  const auto make = [&] { return next_input_frame(source, corners, are_signatures_wanted); };
+  const auto work = [&](const InputFrame& seen) {
+    for (const DetectorRun& each : detectors) {
+      recording::FrameRecord frame = seen.record;
+      if (!each.detector.wants_signatures()) {  // as in a run of its own
         frame.signatures = {};
         frame.times->describe_ms = 0;
       }
-      ask(watcher.detector, seen.image, seen.grey, frame);
-      watcher.sink(frame, seen.image);
+      run_detector(each.detector, seen.image, seen.grey, frame);
+      each.sink(frame, seen.image);
     }
   };
   for_each_frame(make, work, threads);
   RunEnd end{.diagnostics = {}, .warnings = source.warnings()};
-  for (const Watcher& watcher : watchers) {
+  for (const DetectorRun& each : detectors) {
     end.diagnostics.push_back(source.diagnostics());
-    watcher.detector.finish();
-    end.diagnostics.back() += watcher.detector.diagnostics();
+    each.detector.finish();
+    end.diagnostics.back() += each.detector.diagnostics();
   }
   return end;
 }
 
 RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-           std::span<const Watcher> watchers, int threads) {
+           std::span<const DetectorRun> detectors, int threads) {
   SimulatedFrames frames(scenario, simulation);
-  return run(frames, CornerFinder(scenario), watchers, threads);
+  return run(frames, CornerFinder(scenario), detectors, threads);
 }
 
 std::vector<Eigen::Vector2f> CornerFinder::find(const cv::Mat1b& grey,

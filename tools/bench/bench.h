@@ -45,7 +45,7 @@ class CornerFinder {
 };
 
 /// Called with each finished frame and its image (BGR), in order. An exception ends the run.
-using FrameSink = std::function<void(const FrameRecord&, const cv::Mat3b& image)>;
+using FrameSink = std::function<void(const recording::FrameRecord&, const cv::Mat3b& image)>;
 
 /// Source of the frames of a run.
 class FrameSource {
@@ -54,7 +54,7 @@ class FrameSource {
 
   /// The next frame: number, time and motions. Adds the time spent to the frame's times.
   /// \param image set to the camera's image, BGR. \return false after the last frame.
-  virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
+  virtual bool next(recording::FrameRecord& frame, cv::Mat3b& image) = 0;
 
   /// The events since the frame before the last one, up to the last one.
   virtual std::span<const sim::Event> events() const { return {}; }
@@ -65,7 +65,7 @@ class FrameSource {
   virtual bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const = 0;
 
   /// Adds the truth of the frame's corners and objects, as far as it is known.
-  virtual void label(FrameRecord& frame) = 0;
+  virtual void label(recording::FrameRecord& frame) = 0;
 
   virtual std::optional<sim::Warnings> warnings() const { return std::nullopt; }
   /// Counts of the faults in the sensors' readings so far.
@@ -77,9 +77,9 @@ class SimulatedFrames : public FrameSource {
   /// \param scenario of the simulation. Keeps references to both.
   SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation);
 
-  bool next(FrameRecord& frame, cv::Mat3b& image) override;
+  bool next(recording::FrameRecord& frame, cv::Mat3b& image) override;
   bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const override;
-  void label(FrameRecord& frame) override;
+  void label(recording::FrameRecord& frame) override;
   std::span<const sim::Event> events() const override { return observation_->events; }
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
   Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
@@ -97,58 +97,59 @@ class SimulatedFrames : public FrameSource {
 };
 
 /// A frame before detection.
-struct SeenFrame {
-  FrameRecord record;  ///< without verdicts and layers
-  cv::Mat3b image;     ///< BGR
-  cv::Mat1b grey;      ///< grey image, input of corner detection
+struct InputFrame {
+  recording::FrameRecord record;  ///< without verdicts and layers
+  cv::Mat3b image;                ///< BGR
+  cv::Mat1b grey;                 ///< grey image, input of corner detection
 };
 
 /// The next frame with corners, their truth, and signatures on request.
 /// \return absent after the last frame. \throws the exceptions of the source.
-std::optional<SeenFrame> see(FrameSource& source, CornerFinder& corners,
-                             bool are_signatures_wanted);
+std::optional<InputFrame> next_input_frame(FrameSource& source, CornerFinder& corners,
+                                           bool are_signatures_wanted);
 
 /// Stores a detector's result in a frame.
 /// \param step_ms time of the detector, ms; stored in the field `step_time` unless that is null.
-void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
-          FrameRecord& frame);
+void store_result(const FrameResult& said, double recording::FrameTimes::*step_time, double step_ms,
+                  recording::FrameRecord& frame);
 
 /// Makes frames, and works on each of them, in their order.
 /// \param threads 1 or 2: two make a frame while `work` is on the frame before, in another thread.
 /// \throws the first exception of the two in the order of a single thread.
-void for_each_frame(const std::function<std::optional<SeenFrame>()>& make,
-                    const std::function<void(SeenFrame&)>& work, int threads);
+void for_each_frame(const std::function<std::optional<InputFrame>()>& make,
+                    const std::function<void(InputFrame&)>& work, int threads);
 
 /// The facts of a run of the scenario.
-RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation);
+recording::RunInfo run_info(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
 /// Runs a detector on a frame with known corners.
 /// \param frame with corners, motion and optional signatures; receives verdicts, layers and times.
 /// \param grey,image may be empty for a detector that does not use them.
-void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
+void run_detector(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey,
+                  recording::FrameRecord& frame);
 
 /// A detector of a run, and the destination of its results.
-struct Watcher {
+struct DetectorRun {
   Detector& detector;
   FrameSink sink;
 };
 
 /// What is known once all frames are processed.
 struct RunEnd {
-  /// For each watcher, faults in the sensors' readings and in its detector's input.
+  /// For each detector, faults in the sensors' readings and in its detector's input.
   std::vector<Diagnostics> diagnostics;
   std::optional<sim::Warnings> warnings;  ///< of the simulation, if there is one
 };
 
-/// Processes all frames, and keeps none. Each watcher gets the same frames as it would alone.
+/// Processes all frames, and keeps none. Each detector gets the same frames as it would alone.
 /// \param threads as of `for_each_frame`; with 2, detectors and sinks work in the second one.
 /// \throws the exceptions of source, detectors and sinks.
-RunEnd run(FrameSource& source, CornerFinder corners, std::span<const Watcher> watchers,
+RunEnd run(FrameSource& source, CornerFinder corners, std::span<const DetectorRun> detectors,
            int threads = 1);
 
 /// Runs the simulation to its end. \param scenario of the simulation.
 /// \return,\throws like the function above, and sim::PhysicsError.
 RunEnd run(const scenario::Scenario& scenario, sim::Simulation& simulation,
-           std::span<const Watcher> watchers, int threads = 1);
+           std::span<const DetectorRun> detectors, int threads = 1);
 
 }  // namespace lcs::bench

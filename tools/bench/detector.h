@@ -43,13 +43,15 @@ class Detector {
   virtual bool wants_signatures() const { return false; }
 
   /// Pixel masks of the last step's squares, if the detector finds masks.
-  virtual const SquareMasks& masks() const {
-    static const SquareMasks kNone;
+  virtual const recording::SquareMasks& masks() const {
+    static const recording::SquareMasks kNone;
     return kNone;
   }
 
   /// The field of `FrameTimes` for its step time; null if verdicts are only read from a file.
-  virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }
+  virtual double recording::FrameTimes::*step_time() const {
+    return &recording::FrameTimes::filter_ms;
+  }
 
   /// Like `DetectorInfo::circles`. Known from the start.
   virtual bool gives_circles() const { return true; }
@@ -61,7 +63,7 @@ class Detector {
   virtual Diagnostics diagnostics() const { return {}; }
 
   /// Human-readable remarks after the last frame, a line each.
-  virtual std::vector<std::string> told() const { return {}; }
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 /// The simulator's camera as intrinsics for the filter and all detectors.

@@ -12,17 +12,17 @@ namespace lcs::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using World = std::map<std::string, std::string>;
+using WorldFacts = std::map<std::string, std::string>;
 
-std::string as_written(const World& world, const std::string& key) {
+std::string as_written(const WorldFacts& world, const std::string& key) {
   const auto found = world.find(key);
   return found == world.end() ? fmt::format("no {}", key)
                               : fmt::format("{}: {}", key, found->second);
 }
 
 /// Describes the first difference.
-std::string difference(const World& then, const World& now) {
-  for (const World* one : {&then, &now}) {
+std::string difference(const WorldFacts& then, const WorldFacts& now) {
+  for (const WorldFacts* one : {&then, &now}) {
     for (const auto& [key, text] : *one) {
       const std::string before = as_written(then, key), after = as_written(now, key);
       if (before != after) return fmt::format("it has {}, and now there is {}", before, after);
@@ -31,7 +31,7 @@ std::string difference(const World& then, const World& now) {
   return "";
 }
 
-void require_same(const fs::path& folder, const RunInfo& recorded, int frames,
+void require_same(const fs::path& folder, const recording::RunInfo& recorded, int frames,
                   const scenario::Scenario& scenario) {
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(
@@ -59,24 +59,24 @@ void require_same(const fs::path& folder, const RunInfo& recorded, int frames,
 EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario,
                        const Intrinsics& camera)
     : folder_(folder), camera_(camera) {
-  if (!fs::exists(stored(folder, kLayersFile))) {
+  if (!fs::exists(recording::stored(folder, recording::kLayersFile))) {
     throw std::runtime_error(
         fmt::format("there is no run in {} with its frames; name a folder that was made with "
                     "--keep all, which is the default",
                     folder.string()));
   }
-  RecordingReader reader(folder);
+  recording::RecordingReader reader(folder);
   info_ = reader.run();
   info_.detector = {};
   frames_ = reader.count_left();
   if (frames_ != scenario.frames) {  // a file that is cut off is told by its name
-    RecordingReader both(folder);
+    recording::RecordingReader both(folder);
     while (both.skip()) {
     }
   }
   require_same(folder, info_, frames_, scenario);
   if (!info_.origin) info_.origin = scenario.origin;
-  const fs::path pictures = folder / kPicturesFile;
+  const fs::path pictures = folder / output::kPicturesFile;
   if (!fs::exists(pictures)) return;
   pictures_.emplace(pictures, cv::Size(camera_.width_px, camera_.height_px));
   if (pictures_->size() != static_cast<std::size_t>(frames_)) {
@@ -94,29 +94,30 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-RunEnd EarlierRun::run(std::span<const Watcher> watchers, bool with_images, int threads) {
-  RecordingReader reader(folder_);
+RunEnd EarlierRun::run(std::span<const DetectorRun> detectors, bool with_images, int threads) {
+  recording::RecordingReader reader(folder_);
   std::size_t k = 0;
-  const auto make = [&]() -> std::optional<SeenFrame> {
-    FrameRecord recorded;
+  const auto make = [&]() -> std::optional<InputFrame> {
+    recording::FrameRecord recorded;
     if (!reader.next(recorded)) return std::nullopt;
     lacks_signatures_ |= recorded.signatures.size() < recorded.corners_px.size();
     lacks_gaps_ |= !recorded.gaps;
-    return SeenFrame{
-        without_detections(std::move(recorded)), with_images ? image(k++) : cv::Mat3b{}, {}};
+    return InputFrame{recording::without_detections(std::move(recorded)),
+                      with_images ? image(k++) : cv::Mat3b{},
+                      {}};
   };
-  const auto work = [&](const SeenFrame& seen) {
-    for (const Watcher& watcher : watchers) {
-      FrameRecord frame = seen.record;
-      ask(watcher.detector, seen.image, {}, frame);
-      watcher.sink(frame, seen.image);
+  const auto work = [&](const InputFrame& seen) {
+    for (const DetectorRun& each : detectors) {
+      recording::FrameRecord frame = seen.record;
+      run_detector(each.detector, seen.image, {}, frame);
+      each.sink(frame, seen.image);
     }
   };
   for_each_frame(make, work, threads);
   RunEnd end{.diagnostics = {}, .warnings = info_.warnings};
-  for (const Watcher& watcher : watchers) {
-    watcher.detector.finish();
-    end.diagnostics.push_back(watcher.detector.diagnostics());
+  for (const DetectorRun& each : detectors) {
+    each.detector.finish();
+    end.diagnostics.push_back(each.detector.diagnostics());
   }
   return end;
 }

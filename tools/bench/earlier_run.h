@@ -21,10 +21,10 @@ class EarlierRun {
              const Intrinsics& camera);
 
   /// The pictures of all frames, if the run kept them; else null.
-  const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
+  const output::FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
 
   /// The scenario, seed, world, objects and truth of the run, without its detector.
-  const RunInfo& info() const { return info_; }
+  const recording::RunInfo& info() const { return info_; }
   int frames() const { return frames_; }
 
   /// Whether, as `run` has found, some corner has no signature, as in a run with only a comparator.
@@ -40,17 +40,17 @@ class EarlierRun {
   ///   with losses of compression. Else the pictures are empty.
   /// \param threads as of `bench::run`.
   /// \throws the exceptions of the detectors and the sinks; std::runtime_error for a damaged file.
-  RunEnd run(std::span<const Watcher> watchers, bool with_images, int threads = 1);
+  RunEnd run(std::span<const DetectorRun> detectors, bool with_images, int threads = 1);
 
  private:
   cv::Mat3b image(std::size_t position) const;
 
   std::filesystem::path folder_;
-  RunInfo info_;
+  recording::RunInfo info_;
   int frames_ = 0;
   bool lacks_signatures_ = false, lacks_gaps_ = false;
   Intrinsics camera_;
-  std::optional<FramePictures> pictures_;
+  std::optional<output::FramePictures> pictures_;
 };
 
 }  // namespace lcs::bench

@@ -2,8 +2,6 @@
 /// Measures the time of a call.
 #pragma once
 
-#include <chrono>
-
 #include "filter/stopwatch.h"
 
 namespace lcs::bench {

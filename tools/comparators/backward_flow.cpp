@@ -12,7 +12,7 @@ BackwardFlow::BackwardFlow(const FlowParameters& parameters)
   }
 }
 
-const EgoMotion& BackwardFlow::see(const cv::Mat1b& grey, const EgoMotion& motion) {
+const EgoMotion& BackwardFlow::advance(const cv::Mat1b& grey, const EgoMotion& motion) {
   const cv::Size window(parameters_.window_px, parameters_.window_px);
   flow_.build_pyramid(grey, pyramids_.begin(motion), window, parameters_.levels,
                       /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
@@ -31,20 +31,16 @@ std::span<const std::optional<Vec2>> BackwardFlow::track(
     corners_.emplace_back(corners_px[i].x(), corners_px[i].y());
     before_.emplace_back(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
   }
-  lucas_kanade(pyramids_.now(), *pyramids_.earlier(), corners_, before_, found_);
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
+                               parameters_.max_iterations, parameters_.least_step_px);
+  flow_.lucas_kanade(pyramids_.now(), *pyramids_.earlier(), corners_, before_, found_,
+                     cv::noArray(), {parameters_.window_px, parameters_.window_px},
+                     parameters_.levels, until, cv::OPTFLOW_USE_INITIAL_FLOW,
+                     parameters_.least_eigenvalue);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     if (found_[i]) result_[i] = Vec2(before_[i].x, before_[i].y);
   }
   return result_;
-}
-
-void BackwardFlow::lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here,
-                                Points& there, std::vector<unsigned char>& found) const {
-  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
-                               parameters_.max_iterations, parameters_.least_step_px);
-  flow_.lucas_kanade(from, to, here, there, found, cv::noArray(),
-                     {parameters_.window_px, parameters_.window_px}, parameters_.levels, until,
-                     cv::OPTFLOW_USE_INITIAL_FLOW, parameters_.least_eigenvalue);
 }
 
 }  // namespace lcs::comparators

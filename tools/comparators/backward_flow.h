@@ -36,7 +36,7 @@ class BackwardFlow {
   /// \param grey image of this frame; all frames have one size.
   /// \param motion since the last frame.
   /// \return the motion since the image to compare with; zero in the first frame.
-  const EgoMotion& see(const cv::Mat1b& grey, const EgoMotion& motion);
+  const EgoMotion& advance(const cv::Mat1b& grey, const EgoMotion& motion);
 
   /// Tracks the corners of the last frame passed to `see`.
   /// \param guesses_px expected earlier place of each corner; as many as corners.
@@ -49,18 +49,12 @@ class BackwardFlow {
   const Diagnostics& diagnostics() const { return pyramids_.diagnostics(); }
 
  private:
-  using Pyramid = std::vector<cv::Mat>;
-  using Points = std::vector<cv::Point2f>;
-  /// `there` holds the guesses on entry and the tracked points on return.
-  void lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here, Points& there,
-                    std::vector<unsigned char>& found) const;
-
   const sim::OpticalFlow& flow_;
   FlowParameters parameters_;
-  Lookback<Pyramid> pyramids_;
+  Lookback<std::vector<cv::Mat>> pyramids_;
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  Points corners_, before_;
+  std::vector<cv::Point2f> corners_, before_;
   std::vector<unsigned char> found_;
   std::vector<std::optional<Vec2>> result_;
 };

@@ -2,21 +2,20 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <thread>
-#include <utility>
 
-#include "scenarios/input/message.h"
 #include "tools/process/child.h"
 
 namespace lcs::comparators {
@@ -30,8 +29,8 @@ constexpr auto kLastWords = 500ms;  // for the last output of a process that exi
 constexpr std::size_t kMostStderr = 1U << 16U;
 constexpr std::size_t kMostLines = 8;  // of stderr in messages
 
-[[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
+[[noreturn]] void fail_to_connect() {
+  throw std::system_error(errno, std::generic_category(), "no pipe to the detector can be made");
 }
 
 /// Prefixes a single command with `exec`, so that it replaces the shell: closing its files and its
@@ -89,22 +88,13 @@ std::string beginning_of(const std::string& text) {
 
 }  // namespace
 
-void DetectorProcess::Pipe::take(int descriptor) {
-  close();
-  descriptor_ = descriptor;
-}
-
-void DetectorProcess::Pipe::close() {
-  if (is_open()) ::close(std::exchange(descriptor_, -1));
-}
-
 DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
                                  std::function<void()> on_wait)
     : timeout_s_(timeout_s), on_wait_(std::move(on_wait)) {
   Pipe its_in, its_out, its_err, its_lifeline;
   const auto connect = [](Pipe& reads, Pipe& writes) {
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe to the detector can be made");
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_connect();
     reads.take(ends[0]);
     writes.take(ends[1]);
   };
@@ -112,10 +102,9 @@ DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
   connect(out_, its_out);
   connect(err_, its_err);
   connect(its_lifeline, lifeline_);
-  if (::fcntl(its_lifeline.get(), F_SETFD, 0) != 0)
-    fail("no pipe to the detector can be made");  // inherited by the program
+  if (::fcntl(its_lifeline.get(), F_SETFD, 0) != 0) fail_to_connect();  // inherited by the program
   for (const Pipe* own : {&in_, &out_, &err_}) {
-    if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail("no pipe to the detector can be made");
+    if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail_to_connect();
   }
   ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // speeds up pictures; may fail
 
@@ -128,7 +117,7 @@ DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
 DetectorProcess::~DetectorProcess() {
   in_.close();
   if (status_) return;
-  if (!has_ended()) end_group(SIGTERM);
+  if (!has_ended()) ::kill(-pid_, SIGTERM);
   const Clock::time_point deadline = Clock::now() + kPatience;
   while (!has_ended() && Clock::now() < deadline) {
     // drains its output, so that a full pipe does not block it
@@ -142,7 +131,7 @@ DetectorProcess::~DetectorProcess() {
   reap();
 }
 
-std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned char> bytes) {
+std::string DetectorProcess::request(std::string_view line, std::span<const unsigned char> bytes) {
   const Clock::time_point deadline = time_is_up();
   read_what_is_there();
   if (!answers_.empty()) {
@@ -212,11 +201,9 @@ void DetectorProcess::finish() {
 
 std::vector<std::string> DetectorProcess::said() const {
   std::vector<std::string> lines;
-  std::size_t begin = 0;
-  while (begin < stderr_.size()) {
-    const std::size_t end = std::min(stderr_.find('\n', begin), stderr_.size());
-    if (end > begin) lines.push_back(stderr_.substr(begin, end - begin));
-    begin = end + 1;
+  std::istringstream text(stderr_);
+  for (std::string line; std::getline(text, line);) {
+    if (!line.empty()) lines.push_back(line);
   }
   if (lines.size() > kMostLines) {
     lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kMostLines));
@@ -226,10 +213,9 @@ std::vector<std::string> DetectorProcess::said() const {
 
 /// Waits until a pipe is ready, at most for a tick.
 void DetectorProcess::wait(bool to_write, Clock::time_point deadline) const {
-  const auto descriptor = [](const Pipe& pipe) { return pipe.get(); };  // poll ignores those < 0
-  std::array<pollfd, 3> pipes{{{descriptor(out_), POLLIN, 0},
-                               {descriptor(err_), POLLIN, 0},
-                               {to_write ? descriptor(in_) : -1, POLLOUT, 0}}};
+  std::array<pollfd, 3> pipes{{{out_.get(), POLLIN, 0},  // poll ignores those < 0
+                               {err_.get(), POLLIN, 0},
+                               {to_write ? in_.get() : -1, POLLOUT, 0}}};
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
   const auto most = std::clamp<std::chrono::milliseconds>(left, 0ms, kTick);
   ::poll(pipes.data(), pipes.size(), static_cast<int>(most.count()));  // a signal ends it, too
@@ -307,13 +293,9 @@ bool DetectorProcess::has_ended() const {
          info.si_pid == pid_;
 }
 
-void DetectorProcess::end_group(int signal) const {
-  ::kill(-pid_, signal);
-}
-
 void DetectorProcess::reap() {
   if (status_) return;
-  end_group(SIGKILL);  // and its children
+  ::kill(-pid_, SIGKILL);  // and its children
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -323,9 +305,7 @@ void DetectorProcess::reap() {
 std::string DetectorProcess::with_stderr(const std::string& what) const {
   const std::vector<std::string> lines = said();
   if (lines.empty()) return what + "; it wrote nothing to stderr";
-  std::string text = what + "; it wrote to stderr: ";
-  for (const std::string& line : lines) text += (&line == &lines.front() ? "" : " | ") + line;
-  return text;
+  return fmt::format("{}; it wrote to stderr: {}", what, fmt::join(lines, " | "));
 }
 
 }  // namespace lcs::comparators

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lcs::comparators {
@@ -44,7 +46,7 @@ class DetectorProcess {
   /// Sends a line (including its end) and the bytes after it.
   /// \return the answering line, without its end.
   /// \throws DetectorError if it ended, closed its input, timed out or did not read everything.
-  std::string ask(std::string_view line, std::span<const unsigned char> bytes = {});
+  std::string request(std::string_view line, std::span<const unsigned char> bytes = {});
 
   /// Closes its input and waits for its exit.
   /// \throws DetectorError for a non-zero exit code or an unexpected answer.
@@ -64,8 +66,13 @@ class DetectorProcess {
     ~Pipe() { close(); }
     Pipe(const Pipe&) = delete;
     Pipe& operator=(const Pipe&) = delete;
-    void take(int descriptor);
-    void close();
+    void take(int descriptor) {
+      close();
+      descriptor_ = descriptor;
+    }
+    void close() {
+      if (is_open()) ::close(std::exchange(descriptor_, -1));
+    }
     int get() const { return descriptor_; }
     bool is_open() const { return descriptor_ >= 0; }
 
@@ -80,7 +87,6 @@ class DetectorProcess {
   [[noreturn]] void fail_ended();
   void wait_for_end(Clock::time_point deadline);
   bool has_ended() const;
-  void end_group(int signal) const;
   void reap();
   std::string with_stderr(const std::string& what) const;
 

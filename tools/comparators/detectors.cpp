@@ -1,17 +1,15 @@
 #include "tools/comparators/detectors.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
+#include <ranges>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "tools/bench/detector.h"
 #include "tools/comparators/dis.h"
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
@@ -26,26 +24,26 @@ class StoredDetections : public bench::Detector {
  public:
   /// \param sequence with the frames that will be processed, in order.
   /// \throws input::Error naming file and line.
-  StoredDetections(const std::filesystem::path& csv, bench::Recording sequence)
-      : said_(bench::read_detections(csv, std::move(sequence))) {}
+  StoredDetections(const std::filesystem::path& csv, recording::Recording sequence)
+      : said_(recording::read_detections(csv, std::move(sequence))) {}
 
   const FrameResult& step(const bench::DetectorInput&) override {
-    bench::FrameRecord& frame = said_.recording.frames.at(next_++);
+    recording::FrameRecord& frame = said_.recording.frames.at(next_++);
     result_.verdicts = std::move(frame.verdicts);
     result_.layers = std::move(frame.layers);
     masks_ = std::move(frame.masks);
     return result_;
   }
-  double bench::FrameTimes::*step_time() const override { return nullptr; }
+  double recording::FrameTimes::*step_time() const override { return nullptr; }
   bool gives_circles() const override { return said_.recording.detector.circles; }
-  const bench::SquareMasks& masks() const override { return masks_; }
-  std::vector<std::string> told() const override { return bench::lines_of(said_.counts); }
+  const recording::SquareMasks& masks() const override { return masks_; }
+  std::vector<std::string> remarks() const override { return recording::lines_of(said_.counts); }
 
  private:
-  bench::Detections said_;
+  recording::Detections said_;
   std::size_t next_ = 0;
   FrameResult result_;
-  bench::SquareMasks masks_;
+  recording::SquareMasks masks_;
 };
 
 using Made = std::unique_ptr<bench::Detector>;
@@ -54,25 +52,23 @@ Made make_lcs(const Intrinsics& camera, const scenario::Scenario& scenario) {
   return std::make_unique<bench::LcsDetector>(camera, bench::filter_parameters(scenario));
 }
 
-Made make_klt(const Intrinsics& camera, const scenario::Scenario&) {
-  return std::make_unique<KltDetector>(camera);
+template <class OfCamera>
+Made make_of_camera(const Intrinsics& camera, const scenario::Scenario&) {
+  return std::make_unique<OfCamera>(camera);
 }
 
 Made make_homography(const Intrinsics&, const scenario::Scenario&) {
   return std::make_unique<HomographyDetector>();
 }
 
-Made make_dis(const Intrinsics& camera, const scenario::Scenario&) {
-  return std::make_unique<DisDetector>(camera);
-}
-
 constexpr std::array<DetectorKind, 4> kDetectors{{
     {"lcs", "the Line-Circle-Square filter", true, false, make_lcs},
     {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, true,
-     make_klt},
+     make_of_camera<KltDetector>},
     {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false, true,
      make_homography},
-    {"dis", "dense flow, and distance to the epipolar segment", false, true, make_dis},
+    {"dis", "dense flow, and distance to the epipolar segment", false, true,
+     make_of_camera<DisDetector>},
 }};
 
 constexpr DetectorKind kProgram{"program", "a program of yours", false, true, nullptr};
@@ -115,11 +111,9 @@ std::span<const DetectorKind> detectors() {
 const DetectorKind& detector(std::string_view name) {
   const auto found = std::ranges::find(kDetectors, name, &DetectorKind::name);
   if (found != kDetectors.end()) return *found;
-  std::string names;
-  for (const DetectorKind& each : kDetectors) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
-  }
-  throw std::invalid_argument(fmt::format("no detector is called '{}'; there are {}", name, names));
+  throw std::invalid_argument(
+      fmt::format("no detector is called '{}'; there are {}", name,
+                  fmt::join(kDetectors | std::views::transform(&DetectorKind::name), ", ")));
 }
 
 DetectorSpec spec_of(const std::string& name) {
@@ -141,10 +135,7 @@ DetectorSpec spec_of_program(const std::string& name, const Program& program) {
 }
 
 DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& detections_file) {
-  return {own_name(name.empty() ? detections_file.stem().string() : name),
-          kFile,
-          "",
-          {},
+  return {own_name(name.empty() ? detections_file.stem().string() : name), kFile, "", std::nullopt,
           detections_file};
 }
 
@@ -155,17 +146,10 @@ std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorCo
           "--detections are of the frames of an earlier run; name it by --recorded");
     }
     return std::make_unique<StoredDetections>(spec.detections_file,
-                                              bench::read_recording(context.recorded));
+                                              recording::read_recording(context.recorded));
   }
   if (!spec.program) return spec.detector.make(context.camera, context.scenario);
-  const scenario::Scenario& scenario = context.scenario;
-  const Announced announced{.scenario = scenario.name,
-                            .seed = scenario.seed,
-                            .frames = context.frames,
-                            .rate_hz = scenario.camera.rate_hz,
-                            .camera = context.camera,
-                            .compressed = !context.recorded.empty()};
-  return std::make_unique<ProgramDetector>(spec.name, *spec.program, announced, context.on_wait);
+  return std::make_unique<ProgramDetector>(spec.name, *spec.program, context);
 }
 
 std::vector<std::string> apply_preset(const DetectorSpec& spec, scenario::Scenario& scenario) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,15 +51,6 @@ DetectorSpec spec_of(const std::string& name);
 /// \throws std::invalid_argument for a name in use, or invalid as a folder's name.
 DetectorSpec spec_of_program(const std::string& name, const Program& program);
 DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& detections_file);
-
-/// Context of a detector's construction.
-struct DetectorContext {
-  const Intrinsics& camera;
-  const scenario::Scenario& scenario;
-  std::filesystem::path recorded = {};  ///< folder of the run that provides the frames; "": none
-  int frames = 0;                       ///< number of frames; 0: unknown
-  std::function<void()> on_wait = {};   ///< as in `DetectorProcess`
-};
 
 /// \throws input::Error, DetectorError, std::runtime_error.
 std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorContext& context);

@@ -14,7 +14,7 @@ HomographyDetector::HomographyDetector(const HomographyParameters& parameters)
 }
 
 const FrameResult& HomographyDetector::step(const bench::DetectorInput& input) {
-  const EgoMotion& motion = flow_.see(input.grey, input.motion);
+  const EgoMotion& motion = flow_.advance(input.grey, input.motion);
   guesses_.clear();
   for (const Eigen::Vector2f& corner : input.corners_px) guesses_.push_back(corner.cast<double>());
   const auto tracked = flow_.track(input.corners_px, guesses_);

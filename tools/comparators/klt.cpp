@@ -9,7 +9,7 @@ KltDetector::KltDetector(const Intrinsics& camera, const KltParameters& paramete
       groups_(parameters.groups) {}
 
 const FrameResult& KltDetector::step(const bench::DetectorInput& input) {
-  const EgoMotion& motion = flow_.see(input.grey, input.motion);
+  const EgoMotion& motion = flow_.advance(input.grey, input.motion);
   const MotionField field = exact_field(camera_, motion);
   const MotionField back = exact_field(camera_, turned_back(motion));
 

@@ -22,17 +22,12 @@ Json parsed(const std::string& line) {
   const std::string shown = input::one_line(std::string_view(line).substr(0, 200));
   constexpr const char* kRemedy = "write one object of JSON in a line, and nothing else";
   try {
-    Json json = bench::parse_json<Json>(line);
+    Json json = files::parse_json<Json>(line);
     if (json.is_object()) return json;
-  } catch (const bench::JsonError& error) {
+  } catch (const files::JsonError& error) {
     throw DetectorError(fmt::format("its answer '{}': {}; {}", shown, error.what(), kRemedy));
   }
   throw DetectorError(fmt::format("its answer is no object: '{}'; {}", shown, kRemedy));
-}
-
-/// JSON text; for numbers it equals the text in CSV.
-std::string text_of(const Json& json) {
-  return bench::json_text(json);
 }
 
 /// Adds the detector's name and the place to the errors of `work`.
@@ -50,8 +45,8 @@ decltype(auto) at(const std::string& name, const std::string& place, Work&& work
   }
 }
 
-/// Appends the values of a row as JSON text. A mask in COCO format (an object) gives its size and
-/// its counts; counts given as a string are unquoted.
+/// Appends the values of a row as JSON text, which for numbers equals the text in CSV. A mask in
+/// COCO format (an object) gives its size and its counts; counts given as a string are unquoted.
 void add_values(const Json& json, bool is_mask, std::vector<std::string>& texts, int depth = 0) {
   constexpr int kOfCounts = 2;  // nesting depth of counts in an object in a row
   if (json.is_array() && depth <= (is_mask ? kOfCounts : 0)) {
@@ -61,12 +56,12 @@ void add_values(const Json& json, bool is_mask, std::vector<std::string>& texts,
       if (json.contains(key)) add_values(json[key], is_mask, texts, depth + 1);
     }
   } else {
-    texts.push_back(is_mask && json.is_string() ? json.get<std::string>() : text_of(json));
+    texts.push_back(is_mask && json.is_string() ? json.get<std::string>() : files::json_text(json));
   }
 }
 
 /// Adds all rows of one type: each a list of values, or a single value.
-void add_rows(const std::string& type, const Json& rows, bench::FrameDetections& detections) {
+void add_rows(const std::string& type, const Json& rows, recording::FrameDetections& detections) {
   if (!rows.is_array()) {
     throw DetectorError(fmt::format("its \"{}\" is no list; give one of rows", type));
   }
@@ -82,28 +77,29 @@ void add_rows(const std::string& type, const Json& rows, bench::FrameDetections&
 }  // namespace
 
 ProgramDetector::ProgramDetector(std::string name, const Program& program,
-                                 const Announced& announced, std::function<void()> on_wait)
+                                 const DetectorContext& context)
     : name_(std::move(name)),
-      camera_(announced.camera),
-      process_(program.command, program.timeout_s, std::move(on_wait)) {
-  at(name_, "its greeting", [&] { greet(announced); });
+      camera_(context.camera),
+      process_(program.command, program.timeout_s, context.on_wait) {
+  at(name_, "its greeting", [&] { greet(context); });
 }
 
-void ProgramDetector::greet(const Announced& announced) {
-  const std::size_t bytes = static_cast<std::size_t>(announced.camera.width_px) *
-                            static_cast<std::size_t>(announced.camera.height_px) * 3;
+void ProgramDetector::greet(const DetectorContext& context) {
+  const scenario::Scenario& scenario = context.scenario;
+  const std::size_t bytes =
+      static_cast<std::size_t>(camera_.width_px) * static_cast<std::size_t>(camera_.height_px) * 3;
   const std::string header = fmt::format(
       R"({{"protocol":{},"scenario":{},"seed":{},"frames":{},"rate_hz":{},"camera":{},)"
       R"("picture":{{"pixels":"bgr8","bytes":{},"compressed":{}}}}})",
-      kProtocol, text_of(announced.scenario), announced.seed,
-      announced.frames > 0 ? std::to_string(announced.frames) : "null", announced.rate_hz,
-      bench::camera_json(announced.camera), bytes, announced.compressed);
-  const Json greeting = parsed(process_.ask(header + '\n'));
+      kProtocol, files::json_text<Json>(scenario.name), scenario.seed,
+      context.frames > 0 ? std::to_string(context.frames) : "null", scenario.camera.rate_hz,
+      recording::camera_json(camera_), bytes, !context.recorded.empty());
+  const Json greeting = parsed(process_.request(header + '\n'));
   const auto protocol = greeting.find("protocol");
   if (protocol == greeting.end() || *protocol != kProtocol) {
     throw DetectorError(fmt::format(
         "it does not say {{\"protocol\": {0}}}, but '{1}'; speak protocol {0} (PROTOCOL.md)",
-        kProtocol, input::one_line(text_of(greeting).substr(0, 200))));
+        kProtocol, input::one_line(files::json_text(greeting).substr(0, 200))));
   }
   if (const auto circles = greeting.find("circles"); circles != greeting.end()) {
     if (!circles->is_boolean()) {
@@ -114,13 +110,13 @@ void ProgramDetector::greet(const Announced& announced) {
   if (const auto most = greeting.find(kAnswerBytes); most != greeting.end()) {
     if (!most->is_number_unsigned() || *most > kMostAskedAnswer) {
       throw DetectorError(fmt::format("its \"{}\" is {}; give a whole number up to {}",
-                                      kAnswerBytes, text_of(*most), kMostAskedAnswer));
+                                      kAnswerBytes, files::json_text(*most), kMostAskedAnswer));
     }
     process_.allow_answer(most->get<std::size_t>());
   }
 }
 
-void ProgramDetector::read_answer(const std::string& line, bench::FrameRecord& frame) {
+void ProgramDetector::read_answer(const std::string& line, recording::FrameRecord& frame) {
   const Json answer = parsed(line);
   const auto index = answer.find(kIndex);
   if (index == answer.end()) {
@@ -129,9 +125,9 @@ void ProgramDetector::read_answer(const std::string& line, bench::FrameRecord& f
   if (*index != frame.index) {
     throw DetectorError(
         fmt::format("its answer has the index {}; give one answer to each frame, in their order",
-                    text_of(*index)));
+                    files::json_text(*index)));
   }
-  bench::FrameDetections detections(frame, camera_);
+  recording::FrameDetections detections(frame, camera_);
   for (const auto& [type, rows] : answer.items()) {
     if (type != kIndex) add_rows(type, rows, detections);
   }
@@ -146,15 +142,16 @@ const FrameResult& ProgramDetector::step(const bench::DetectorInput& input) {
     throw DetectorError(
         fmt::format("detector {}: there is no picture of frame {}", name_, input.index));
   }
-  bench::FrameRecord frame;
+  recording::FrameRecord frame;
   frame.index = input.index;
   frame.t_ns = input.t_ns;
   frame.corners_px.assign(input.corners_px.begin(), input.corners_px.end());
   const std::optional<EgoMotion> motion = intake_.take(input.motion, diagnostics_);
-  const std::string line = bench::given_line(frame, motion ? &*motion : nullptr) + '\n';
+  const std::string line = recording::given_line(frame, motion ? &*motion : nullptr) + '\n';
   const cv::Mat3b picture = input.image.isContinuous() ? input.image : input.image.clone();
   at(name_, fmt::format("frame {}", frame.index), [&] {
-    read_answer(process_.ask(line, {picture.data, picture.total() * picture.elemSize()}), frame);
+    read_answer(process_.request(line, {picture.data, picture.total() * picture.elemSize()}),
+                frame);
   });
   result_.verdicts = std::move(frame.verdicts);
   result_.layers = std::move(frame.layers);
@@ -166,8 +163,8 @@ void ProgramDetector::finish() {
   at(name_, "after the last frame", [&] { process_.finish(); });
 }
 
-std::vector<std::string> ProgramDetector::told() const {
-  std::vector<std::string> lines = bench::lines_of(counts_);
+std::vector<std::string> ProgramDetector::remarks() const {
+  std::vector<std::string> lines = recording::lines_of(counts_);
   for (const std::string& line : process_.said()) {
     lines.push_back(fmt::format("{}: {}", name_, line));
   }

@@ -3,12 +3,13 @@
 /// line. The format is specified in `tools/comparators/PROTOCOL.md`.
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "filter/ego_motion/intake.h"
+#include "scenarios/scenario.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detector_process.h"
 #include "tools/recording/frame_detections.h"
@@ -23,35 +24,35 @@ struct Program {
   double timeout_s = 30;  ///< limit for each answer, and for the exit
 };
 
-/// Data sent to a program before the first frame.
-struct Announced {
-  std::string scenario;
-  std::uint64_t seed = 0;
-  int frames = 0;  ///< 0: unknown
-  double rate_hz = 0;
-  Intrinsics camera;
-  bool compressed = false;  ///< pictures come from an earlier run
+/// Context of a detector's construction.
+struct DetectorContext {
+  const Intrinsics& camera;
+  const scenario::Scenario& scenario;
+  std::filesystem::path recorded = {};  ///< folder of the run that provides the frames; "": none
+  int frames = 0;                       ///< number of frames; 0: unknown
+  std::function<void()> on_wait = {};   ///< as in `DetectorProcess`
 };
 
 class ProgramDetector : public bench::Detector {
  public:
   /// Starts the program, sends the announcement, and waits for its greeting.
-  /// \param name for messages. \param on_wait as in `DetectorProcess`.
+  /// \param name for messages.
   /// \throws DetectorError for any error of the program, naming it and the frame.
-  ProgramDetector(std::string name, const Program& program, const Announced& announced,
-                  std::function<void()> on_wait);
+  ProgramDetector(std::string name, const Program& program, const DetectorContext& context);
 
   const FrameResult& step(const bench::DetectorInput& input) override;
-  double bench::FrameTimes::*step_time() const override { return &bench::FrameTimes::process_ms; }
+  double recording::FrameTimes::*step_time() const override {
+    return &recording::FrameTimes::process_ms;
+  }
   bool gives_circles() const override { return gives_circles_; }
-  const bench::SquareMasks& masks() const override { return masks_; }
+  const recording::SquareMasks& masks() const override { return masks_; }
   void finish() override;
   Diagnostics diagnostics() const override { return diagnostics_; }
-  std::vector<std::string> told() const override;
+  std::vector<std::string> remarks() const override;
 
  private:
-  void greet(const Announced& announced);
-  void read_answer(const std::string& line, bench::FrameRecord& frame);
+  void greet(const DetectorContext& context);
+  void read_answer(const std::string& line, recording::FrameRecord& frame);
 
   std::string name_;
   Intrinsics camera_;
@@ -59,9 +60,9 @@ class ProgramDetector : public bench::Detector {
   bool gives_circles_ = false;
   Intake intake_;
   Diagnostics diagnostics_;
-  bench::VerdictCounts counts_;
+  recording::VerdictCounts counts_;
   FrameResult result_;
-  bench::SquareMasks masks_;
+  recording::SquareMasks masks_;
 };
 
 }  // namespace lcs::comparators

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 #include "filter/kinematics/geometry.h"
 #include "tools/recording/box.h"
+#include "tools/scoring/score_squares.h"
 
 namespace lcs::comparators {
 namespace {
@@ -44,15 +45,10 @@ const FrameResult& RebelGroups::group(std::span<const Eigen::Vector2f> corners_p
   }
   link(motions);
 
-  members_.assign(points_.size(), {});
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    members_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
-  }
-  for (const std::vector<int>& members : members_) {
-    if (static_cast<int>(members.size()) >= parameters_.least_corners) {
-      add_group(members, motions, dt_s);
-    }
-  }
+  members_.collect(sets_);
+  members_.visit([&](std::span<const int> members) {
+    if (std::ssize(members) >= parameters_.least_corners) add_group(members, motions, dt_s);
+  });
   name_squares();
 
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -78,7 +74,7 @@ void RebelGroups::link(std::span<const CornerMotion> motions) {
   }
 }
 
-void RebelGroups::add_group(const std::vector<int>& members, std::span<const CornerMotion> motions,
+void RebelGroups::add_group(std::span<const int> members, std::span<const CornerMotion> motions,
                             double dt_s) {
   Layers& layers = result_.layers;
   Vec2 step = Vec2::Zero();
@@ -122,27 +118,17 @@ void RebelGroups::add_group(const std::vector<int>& members, std::span<const Cor
 
 void RebelGroups::name_squares() {
   std::vector<Square>& squares = result_.layers.squares;
-  struct Pair {
-    double overlap;
-    std::size_t now, last;
-  };
-  std::vector<Pair> pairs;
+  std::vector<scoring::BoxPair> pairs;  // of positions in the lists
   for (std::size_t a = 0; a < squares.size(); ++a) {
     for (std::size_t b = 0; b < last_squares_.size(); ++b) {
-      const double overlap = bench::intersection_over_union(bench::box_of(squares[a]),
-                                                            bench::box_of(last_squares_[b]));
-      if (overlap >= parameters_.same_overlap) pairs.push_back({overlap, a, b});
+      const double overlap = recording::intersection_over_union(
+          recording::box_of(squares[a]), recording::box_of(last_squares_[b]));
+      if (overlap >= parameters_.same_overlap) pairs.push_back({overlap, static_cast<int>(a), b});
     }
   }
-  std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
-    return std::tuple(-x.overlap, x.now, x.last) < std::tuple(-y.overlap, y.now, y.last);
-  });
-  std::vector<char> taken(last_squares_.size(), 0);
-  for (const Pair& pair : pairs) {
-    if (squares[pair.now].id != 0 || taken[pair.last]) continue;
-    squares[pair.now].id = last_squares_[pair.last].id;
-    squares[pair.now].age = last_squares_[pair.last].age + 1;
-    taken[pair.last] = 1;
+  for (const auto& [overlap, now, last] : scoring::one_to_one(std::move(pairs))) {
+    squares[now].id = last_squares_[last].id;
+    squares[now].age = last_squares_[last].age + 1;
   }
   for (Square& square : squares) {
     if (square.id == 0) square.id = next_square_++;

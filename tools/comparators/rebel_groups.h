@@ -49,8 +49,7 @@ class RebelGroups {
 
  private:
   void link(std::span<const CornerMotion> motions);
-  void add_group(const std::vector<int>& members, std::span<const CornerMotion> motions,
-                 double dt_s);
+  void add_group(std::span<const int> members, std::span<const CornerMotion> motions, double dt_s);
   void name_squares();
 
   GroupParameters parameters_;
@@ -61,7 +60,7 @@ class RebelGroups {
   std::vector<Vec2> points_;
   std::vector<int> corner_of_;  ///< of each point
   DisjointSets sets_;           ///< of points with similar motion
-  std::vector<std::vector<int>> members_;
+  SetMembers members_;
   PointGrid grid_;
   ConvexHull hull_;
   FrameResult result_;

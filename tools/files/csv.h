@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::files {
 
 /// The text without white space (as `std::isspace`, newlines apart) at either end.
 inline std::string_view trimmed(std::string_view text) {
@@ -20,15 +20,22 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// The trimmed fields between commas, as views into the line. An empty line has one empty field.
-inline std::vector<std::string_view> fields_of(std::string_view line) {
+/// The fields between separators, as views into the line. An empty line has one empty field.
+inline std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    fields.push_back(line.substr(0, end));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
   }
+}
+
+/// The trimmed fields between commas.
+inline std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields = split(line, ',');
+  for (std::string_view& field : fields) field = trimmed(field);
+  return fields;
 }
 
 /// The whole text as a number; absent if it is not a number, out of range or not finite.
@@ -44,4 +51,4 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

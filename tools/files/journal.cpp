@@ -15,7 +15,7 @@
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ void Journal::append(std::string_view text) {
   size_ += text.size();
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -13,7 +13,7 @@
 
 #include "tools/files/provenance.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 
 /// Reads a journal, also while a process writes it.
 class JournalReader {
@@ -77,4 +77,4 @@ class Journal {
   int file_ = -1;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

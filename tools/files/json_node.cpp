@@ -1,6 +1,6 @@
 #include "tools/files/json_node.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 
 void require_shallow(std::string_view text) {
   int depth = 0, lines = 0;
@@ -20,4 +20,4 @@ void require_shallow(std::string_view text) {
   }
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

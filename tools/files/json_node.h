@@ -20,7 +20,7 @@
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 
 /// A parse error such as "not JSON at byte 12", with the number of lines before it.
 struct JsonError : std::runtime_error {
@@ -113,8 +113,6 @@ class JsonNode {
 
   bool is_list() const { return json_.is_array(); }
 
-  bool is_flag() const { return json_.is_boolean(); }
-
   std::string text() const {
     require(json_.is_string(), "a text");
     return json_.get<std::string>();
@@ -152,9 +150,8 @@ class JsonNode {
   std::array<double, N> numbers() const {
     require(json_.is_array() && json_.size() == N, fmt::format("a list of {} numbers", N));
     std::array<double, N> all{};
-    for (std::size_t i = 0; i < N; ++i) {
-      all[i] = JsonNode(json_[i], fmt::format("{}[{}]", path_, i)).number();
-    }
+    std::size_t next = 0;
+    each([&](const JsonNode& item) { all[next++] = item.number(); });
     return all;
   }
 
@@ -187,4 +184,4 @@ std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
 /// Size limit for files of figures, events or settings. Parsed, they take ten times as much memory.
 inline constexpr std::uint64_t kMostJsonBytes = 256 * input::kMebibyte;
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

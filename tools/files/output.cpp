@@ -21,7 +21,7 @@
 #include "scenarios/input/sha256.h"
 #include "tools/files/written.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,10 +84,7 @@ bool is_of_result(const fs::path& within, const fs::directory_entry& entry,
                   const ResultNames& names) {
   const fs::file_type type = entry.symlink_status().type();
   const bool is_folder = type == fs::file_type::directory;
-  if (!is_folder && type != fs::file_type::regular) return false;
-  if (!is_folder && within.filename() == kRecordName) return true;
-  return std::ranges::any_of(
-      names, [&](const std::string& name) { return fits(within, is_folder, name); });
+  return (is_folder || type == fs::file_type::regular) && is_name_of(within, names, is_folder);
 }
 
 /// Whether an entry of a staging folder is this program's. The staging folder of a suite contains
@@ -261,18 +258,17 @@ fs::path output_path(const fs::path& named) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (status.type() == fs::file_type::none) fail_to("use", named, error);
   if (fs::is_symlink(status)) {
-    throw OutputError(
-        fmt::format("{} is a link, which is not followed; name the place itself", named.string()));
+    throw OutputError("{} is a link, which is not followed; name the place itself", named.string());
   }
   for (const auto& [input, digest] : input::inputs_read()) {
     const fs::path read = fs::weakly_canonical(input, error);
     if (is_within(read, path)) {
-      throw OutputError(fmt::format("{} {} {}, which is read; choose another place", named.string(),
-                                    read == path ? "is" : "holds", input.string()));
+      throw OutputError("{} {} {}, which is read; choose another place", named.string(),
+                        read == path ? "is" : "holds", input.string());
     }
     if (is_within(path, read)) {
-      throw OutputError(fmt::format("{} lies inside of {}, which is read; choose another place",
-                                    named.string(), input.string()));
+      throw OutputError("{} lies inside of {}, which is read; choose another place", named.string(),
+                        input.string());
     }
   }
   return path;
@@ -314,10 +310,10 @@ struct Output::Move {
   }
 };
 
-bool is_name_of(const fs::path& within, const ResultNames& names) {
-  return within.filename() == kRecordName ||
-         std::ranges::any_of(names,
-                             [&](const std::string& name) { return fits(within, false, name); });
+bool is_name_of(const fs::path& within, const ResultNames& names, bool is_folder) {
+  if (!is_folder && within.filename() == kRecordName) return true;
+  return std::ranges::any_of(
+      names, [&](const std::string& name) { return fits(within, is_folder, name); });
 }
 
 std::vector<fs::path> folders_under_way() {
@@ -342,8 +338,7 @@ Output::Output(const fs::path& target, Overwrite overwrite) : overwrite_(overwri
   if (is_direct_) {
     pipe_ = ::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (pipe_ < 0 && errno == ENXIO) {
-      throw OutputError(
-          fmt::format("{} is a pipe that nobody reads; start its reader first", target.string()));
+      throw OutputError("{} is a pipe that nobody reads; start its reader first", target.string());
     }
     target_ = staging_ = target;
     return;
@@ -356,9 +351,8 @@ Output::Output(const fs::path& target, Overwrite overwrite) : overwrite_(overwri
 void Output::prepare() {
   for (const Output* other : under_way()) {
     if (!is_within(other->target_, target_) && !is_within(target_, other->target_)) continue;
-    throw OutputError(
-        fmt::format("{} and {}: results would go into each other; give each a place of its own",
-                    other->target_.string(), target_.string()));
+    throw OutputError("{} and {}: results would go into each other; give each a place of its own",
+                      other->target_.string(), target_.string());
   }
   remove_abandoned(target_, names_, is_folder());
   require_replaceable();
@@ -381,8 +375,7 @@ Output::~Output() {
 void Output::empty() {
   remove_own(own_, names_);
   if (fs::exists(own_)) {
-    throw OutputError(
-        fmt::format("{} holds files that lcs did not write; move them away", own_.string()));
+    throw OutputError("{} holds files that lcs did not write; move them away", own_.string());
   }
   lock_.reset();
   make_staging();
@@ -420,19 +413,18 @@ void Output::require_own(const fs::path& place) const {
   if (status.type() == fs::file_type::none) fail_to("use", target_, error);
   if (is_folder()) return require_own_folder(place, status.type());
   if (status.type() != fs::file_type::regular) {
-    throw OutputError(fmt::format("{} is not a file; choose another place", target_.string()));
+    throw OutputError("{} is not a file; choose another place", target_.string());
   }
   const WrittenFiles written = read_record(record_beside(place.parent_path() / names_.front()));
   if (place.filename() != names_.front()) {
     if (written.size() == 1 && written.contains(names_.front())) return;
-    throw OutputError(
-        fmt::format("{} is not a record that lcs has written; {}", place.string(), kAnother));
+    throw OutputError("{} is not a record that lcs has written; {}", place.string(), kAnother);
   }
   if (overwrite_ == Overwrite::any_file || fs::file_size(place, error) == 0) return;
   const std::string what = difference(written, names_.front(), place);
   if (what.empty()) return;
-  throw OutputError(fmt::format("{} {}, and would be lost; {}{}", target_.string(), what, kAnother,
-                                overwrite_ == Overwrite::own ? "" : ", or give --force"));
+  throw OutputError("{} {}, and would be lost; {}{}", target_.string(), what, kAnother,
+                    overwrite_ == Overwrite::own ? "" : ", or give --force");
 }
 
 void Output::require_own_folder(const fs::path& folder, fs::file_type type) const {
@@ -442,10 +434,10 @@ void Output::require_own_folder(const fs::path& folder, fs::file_type type) cons
   std::error_code error;
   const fs::path here = fs::current_path(error);
   if (!error && is_within(here, folder)) {
-    throw OutputError(fmt::format(
+    throw OutputError(
         "{} is the folder that this runs in, or holds it, and replacing it would leave you in a "
         "folder that is gone; choose another place",
-        target_.string()));
+        target_.string());
   }
   const WrittenFiles written = read_record(folder / kRecordName);
   for (const fs::directory_entry& entry : entries_below(folder)) {
@@ -456,8 +448,7 @@ void Output::require_own_folder(const fs::path& folder, fs::file_type type) cons
       what = difference(written, within, entry.path());
     }
     if (what.empty()) continue;
-    throw OutputError(
-        fmt::format("{}: {} {}, and would be lost; {}", target_.string(), within, what, kAnother));
+    throw OutputError("{}: {} {}, and would be lost; {}", target_.string(), within, what, kAnother);
   }
 }
 
@@ -508,8 +499,8 @@ void Output::take_unfinished() {
   const auto take_lock = [&] { lock_.emplace(own_, unfinished_ == Unfinished::shared); };
   for (take_lock(); wait_ && lock_->is_of_another(); take_lock()) wait_();
   if (lock_->is_of_another()) {
-    throw OutputError(fmt::format(
-        "{}: another process writes it; wait for it, or choose another place", target_.string()));
+    throw OutputError("{}: another process writes it; wait for it, or choose another place",
+                      target_.string());
   }
   const int problem = lock_->problem();
   const bool is_other = problem == ELOOP || problem == ENOTDIR;  // a link
@@ -518,8 +509,7 @@ void Output::take_unfinished() {
   }
   if (problem != 0 && !is_other) fail_to("use", own_, problem);
   if (is_other || (!has_marker(own_) && !is_just_begun(own_))) {
-    throw OutputError(
-        fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
+    throw OutputError("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother);
   }
   if (unfinished_ == Unfinished::shared) return;
   // A process was killed while it moved its result: before the end, or after. If the new result is
@@ -538,7 +528,7 @@ void Output::make_staging() {
   constexpr int kMostAttempts = 1000;
   for (int attempt = 0; !lock_; ++attempt) {
     if (attempt == kMostAttempts) {
-      throw OutputError(fmt::format("{} cannot be made or locked; {}", own_.string(), kAnother));
+      throw OutputError("{} cannot be made or locked; {}", own_.string(), kAnother);
     }
     unfinished_ == Unfinished::removed ? take_free_name(attempt) : take_unfinished();
   }
@@ -610,4 +600,4 @@ void commit_all(std::span<Output* const> outputs) {
   for (Output* output : all) output->committed_ = true;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

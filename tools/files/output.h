@@ -12,7 +12,7 @@
 
 #include "tools/files/output_file.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 
 /// A process holds this lock while it works in a folder. The system releases it when the process
 /// ends, also by SIGKILL.
@@ -44,8 +44,9 @@ class [[nodiscard]] FolderLock {
 /// "runs/*/seed-*/metrics.json".
 using ResultNames = std::vector<std::string>;
 
-/// Whether a file of a folder of results may have this path in it.
-bool is_name_of(const std::filesystem::path& within, const ResultNames& names);
+/// Whether a file, or a folder, of a folder of results may have this path in it.
+bool is_name_of(const std::filesystem::path& within, const ResultNames& names,
+                bool is_folder = false);
 
 /// Removes the staging folders that killed processes left beside `target`. They have a marker. Only
 /// files of these names are removed from them. If the process was killed while it replaced an
@@ -156,4 +157,4 @@ std::vector<std::filesystem::path> folders_under_way();
 /// \throws OutputError; then every earlier result is still there.
 void commit_all(std::span<Output* const> outputs);
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <new>
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 std::string remedy(const std::error_code& error) {
@@ -30,8 +30,7 @@ std::string remedy(const std::error_code& error) {
 
 void fail_to(std::string_view verb, const std::filesystem::path& path,
              const std::error_code& error) {
-  throw OutputError(
-      fmt::format("cannot {} {}: {}; {}", verb, path.string(), error.message(), remedy(error)));
+  throw OutputError("cannot {} {}: {}; {}", verb, path.string(), error.message(), remedy(error));
 }
 
 void fail_to(std::string_view verb, const std::filesystem::path& path, int error) {
@@ -166,4 +165,4 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   file.close();
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

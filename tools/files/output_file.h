@@ -2,6 +2,8 @@
 /// Writes files and reports every error.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,14 +11,20 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::files {
 
 /// Results cannot be written. The message states the cause and the remedy.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  /// Formats as `fmt::format` does.
+  template <class First, class... More>
+  OutputError(fmt::format_string<First, More...> format, First&& first, More&&... more)
+      : std::runtime_error(
+            fmt::format(format, std::forward<First>(first), std::forward<More>(more)...)) {}
 };
 
 /// \throws OutputError "cannot VERB PATH: cause; remedy"
@@ -92,4 +100,4 @@ void flush_to_disk(const std::filesystem::path& path);
 /// Writes a whole file. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

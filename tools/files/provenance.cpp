@@ -13,7 +13,7 @@
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ std::string changed_since(const Provenance& provenance, const fs::path& base) {
   return "";
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

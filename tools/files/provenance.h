@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace lcs::bench {
+namespace lcs::files {
 
 struct Provenance {
   using Json = nlohmann::ordered_json;
@@ -56,4 +56,4 @@ std::string difference(const Provenance& a, const Provenance& b,
 /// "... is missing"; "" if there is none. \param base as of `provenance_of`.
 std::string changed_since(const Provenance& provenance, const std::filesystem::path& base = {});
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "scenarios/input/sha256.h"
 #include "tools/files/output_file.h"
 
-namespace lcs::bench {
+namespace lcs::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,12 +44,6 @@ bool read_line(std::string_view line, WrittenFiles& files) {
     name += is_mark && line[i] == 'n' ? '\n' : line[i];
   }
   return files.emplace(name, digest).second;
-}
-
-std::string text_of(const WrittenFiles& files) {
-  std::string text;
-  for (const auto& [name, digest] : files) text += line_of(digest, name);
-  return text;
 }
 
 std::string digest_of(const fs::path& file) {
@@ -99,7 +92,9 @@ void write_record_of_folder(const fs::path& folder) {
   for (const std::string& name : names) {
     if (!files.contains(name)) files.emplace(name, digest_of(folder / name));
   }
-  write_file(folder / kRecordName, text_of(files));
+  std::string text;
+  for (const auto& [name, digest] : files) text += line_of(digest, name);
+  write_file(folder / kRecordName, text);
   flush_to_disk(folder / kRecordName);
   flush_to_disk(folder);
 }
@@ -129,4 +124,4 @@ std::string first_difference(const fs::path& folder) {
   return "";
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

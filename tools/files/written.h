@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-namespace lcs::bench {
+namespace lcs::files {
 
 inline constexpr const char* kRecordName = ".lcs-written";
 
@@ -37,4 +37,4 @@ std::string difference(const WrittenFiles& written, const std::string& name,
 /// is none. Files outside the record are ignored.
 std::string first_difference(const std::filesystem::path& folder);
 
-}  // namespace lcs::bench
+}  // namespace lcs::files

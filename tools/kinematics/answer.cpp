@@ -31,7 +31,7 @@ std::string verdict_on(const Study& study, double error_px, const std::string& o
                      error_px < kRounding_px ? 0 : error_px, of);
 }
 
-const DriveRow& drive_row(const Study& study, std::string_view drive, const Model& model) {
+const DriveRow& drive_row(const Study& study, std::string_view drive, const FieldModel& model) {
   return row_where(study.drives, [&](const DriveRow& row) {
     return row.drive == drive && row.told == "truth" && row.model.rotation == model.rotation &&
            row.model.depth == model.depth;
@@ -224,8 +224,8 @@ std::string verdict_on_drift(const Study& study, const std::string& imu) {
   bool is_over = false;
   for (const DriftRow& row : study.drift) {
     if (row.imu != imu || row.odometry != odometry || is_over) continue;
-    is_over =
-        px_for_mps * std::max(row.rms.lateral_mps, row.rms.vertical_mps) > config.tolerance_px;
+    is_over = px_for_mps * std::max(row.rms.velocity_B_mps.y(), row.rms.velocity_B_mps.z()) >
+              config.tolerance_px;
     if (!is_over) until_s = row.t_s;
   }
   return fmt::format("{} {:g} s by the velocity {} odometry, at {:g} m",
@@ -246,15 +246,16 @@ Statement drift(const Study& study, const std::string& imu) {
     const DriftRow& row = row_where(study.drift, [&](const DriftRow& each) {
       return each.imu == imu && each.odometry == odometry && each.t_s >= end_s;
     });
-    const auto add = [&](const char* what, double DriftErrors::*error, const char* unit) {
+    const auto add = [&](const char* what, double rms, const char* unit, double expected) {
       s.figures.push_back({fmt::format("drift.{}.{}{}", imu, odometry ? "odometry." : "", what),
-                           row.rms.*error, unit, row.expected.*error});
+                           rms, unit, expected});
     };
-    add("forward", &DriftErrors::forward_mps, "m/s");
-    add("lateral", &DriftErrors::lateral_mps, "m/s");
-    add("vertical", &DriftErrors::vertical_mps, "m/s");
-    add("tilt", &DriftErrors::tilt_rad, "rad");
-    add("heading", &DriftErrors::heading_rad, "rad");
+    const Eigen::Vector3d &v = row.rms.velocity_B_mps, &v_expected = row.expected.velocity_B_mps;
+    add("forward", v.x(), "m/s", v_expected.x());
+    add("lateral", v.y(), "m/s", v_expected.y());
+    add("vertical", v.z(), "m/s", v_expected.z());
+    add("tilt", row.rms.tilt_rad, "rad", row.expected.tilt_rad);
+    add("heading", row.rms.heading_rad, "rad", row.expected.heading_rad);
   }
   return s;
 }

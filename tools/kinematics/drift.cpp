@@ -12,11 +12,7 @@ namespace {
 
 constexpr double kRate_hz = 1;  // of the rows
 
-/// Squared errors at one time.
-struct Squares {
-  double tilt = 0, heading = 0;
-  Eigen::Vector3d velocity_B = Eigen::Vector3d::Zero();
-};
+using Squares = DriftErrors;  // the squared errors at one time
 
 Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& frame,
                    const sim::Calibration& calibration) {
@@ -31,9 +27,9 @@ Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& 
       frame.truth.v_WC_mps + w_W.cross(R_WB * (T_BS.p - calibration.T_BC.p));
   const Eigen::Vector3d off_B =
       R_WB_told.transpose() * estimator.v_WS_mps() - R_WB.transpose() * v_WS;
-  return {.tilt = 0.5 * off_W.head<2>().squaredNorm(),
-          .heading = off_W.z() * off_W.z(),
-          .velocity_B = off_B.cwiseAbs2()};
+  return {.tilt_rad = 0.5 * off_W.head<2>().squaredNorm(),
+          .heading_rad = off_W.z() * off_W.z(),
+          .velocity_B_mps = off_B.cwiseAbs2()};
 }
 
 DriftErrors expected_errors(const StudyConfig& config, const scenario::Scenario& s,
@@ -41,13 +37,10 @@ DriftErrors expected_errors(const StudyConfig& config, const scenario::Scenario&
   const double attitude_rad2 = dead_reckoning_drift(s.imu.noise, gravity_mps2, t_s).attitude_rad2;
   const double tilt_rad2 =
       s.odometry.enabled ? odometry_held_tilt(s.imu.noise, gravity_mps2, t_s) : attitude_rad2;
-  const Eigen::Vector3d velocity =
-      velocity_variance_B(s, gravity_mps2, config.speed_mps, t_s).cwiseSqrt();
-  return {.tilt_rad = std::sqrt(tilt_rad2),
-          .heading_rad = std::sqrt(attitude_rad2),
-          .forward_mps = velocity.x(),
-          .lateral_mps = velocity.y(),
-          .vertical_mps = velocity.z()};
+  return {
+      .tilt_rad = std::sqrt(tilt_rad2),
+      .heading_rad = std::sqrt(attitude_rad2),
+      .velocity_B_mps = velocity_variance_B(s, gravity_mps2, config.speed_mps, t_s).cwiseSqrt()};
 }
 
 }  // namespace
@@ -81,22 +74,19 @@ std::vector<DriftRow> drift_rows(const StudyConfig& config, const Tick& tick) {
       for (std::size_t k = 0; k < ideal.frames.size(); ++k) {
         Squares sum;
         for (const auto& squares : of_seed) {
-          sum.tilt += squares[k].tilt;
-          sum.heading += squares[k].heading;
-          sum.velocity_B += squares[k].velocity_B;
+          sum.tilt_rad += squares[k].tilt_rad;
+          sum.heading_rad += squares[k].heading_rad;
+          sum.velocity_B_mps += squares[k].velocity_B_mps;
         }
-        const Eigen::Vector3d velocity = (sum.velocity_B / seeds).cwiseSqrt();
         const double t_s = static_cast<double>(k) / kRate_hz;
         rows.push_back(
             {.imu = imu.name,
              .odometry = odometry,
              .t_s = t_s,
              .seeds = seeds,
-             .rms = {.tilt_rad = std::sqrt(sum.tilt / seeds),
-                     .heading_rad = std::sqrt(sum.heading / seeds),
-                     .forward_mps = velocity.x(),
-                     .lateral_mps = velocity.y(),
-                     .vertical_mps = velocity.z()},
+             .rms = {.tilt_rad = std::sqrt(sum.tilt_rad / seeds),
+                     .heading_rad = std::sqrt(sum.heading_rad / seeds),
+                     .velocity_B_mps = (sum.velocity_B_mps / seeds).cwiseSqrt()},
              .expected = expected_errors(config, scenario, ideal.calibration.gravity_mps2, t_s)});
       }
     }

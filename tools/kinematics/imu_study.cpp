@@ -221,9 +221,9 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
     }
     for (Way& way : ways) {
       rows.push_back({.roughness_m = roughness_m,
-                      .turn_median_deg = bench::median(turns_deg).value_or(0),
-                      .turn_p95_deg = bench::quantile(turns_deg, 0.95).value_or(0),
-                      .turn_max_deg = bench::quantile(turns_deg, 1).value_or(0),
+                      .turn_median_deg = scoring::median(turns_deg).value_or(0),
+                      .turn_p95_deg = scoring::quantile(turns_deg, 0.95).value_or(0),
+                      .turn_max_deg = scoring::quantile(turns_deg, 1).value_or(0),
                       .rotation = way.rotation,
                       .told = way.told,
                       .error = summary(std::move(way.errors_px)),

@@ -8,6 +8,7 @@
 
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
 namespace {
@@ -41,6 +42,50 @@ double learnt_ratio(const sim::Pinhole& camera, const MotionField& field, const 
 }
 
 }  // namespace
+
+std::string_view name(RotationModel rotation) {
+  return rotation == RotationModel::as_printed    ? "as_printed"
+         : rotation == RotationModel::first_order ? "first_order"
+                                                  : "homography";
+}
+
+std::string_view name(DepthSource depth) {
+  return depth == DepthSource::reference ? "reference"
+         : depth == DepthSource::learnt  ? "learnt"
+                                         : "truth";
+}
+
+ErrorSummary summary(std::vector<double> errors_px) {
+  if (errors_px.empty()) return {};
+  double squares = 0;
+  for (const double error : errors_px) squares += error * error;
+  ErrorSummary result;
+  result.count = errors_px.size();
+  result.rms_px = std::sqrt(squares / static_cast<double>(errors_px.size()));
+  result.median_px = *scoring::median(errors_px);
+  result.p95_px = *scoring::quantile(errors_px, 0.95);
+  result.max_px = *std::ranges::max_element(errors_px);
+  return result;
+}
+
+std::vector<double> errors(const FieldStep& step, const FieldModel& model,
+                           const std::vector<Landmark>& landmarks) {
+  FieldParameters parameters = step.field;
+  parameters.rotation = model.rotation;
+  const MotionField field(step.camera, step.motion, parameters);
+  std::vector<double> all;
+  all.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) {
+    // The field takes the ratio at the end of the interval; the learnt one is from its start.
+    const double ratio = model.depth == DepthSource::reference ? 1
+                         : model.depth == DepthSource::learnt
+                             ? field.advanced_ratio(landmark.learnt_ratio)
+                             : field.reference_depth_m() / landmark.depth_after_m;
+    const Vec2 predicted_px = field.translated(field.rotated(landmark.before_px), ratio);
+    all.push_back((predicted_px - landmark.after_px).norm());
+  }
+  return all;
+}
 
 double ratio_from(const sim::Pinhole& camera, const MotionField& field, const Vec2& now_px,
                   const Vec2& before_px, const Eigen::Vector3d& displacement_C_m) {
@@ -115,15 +160,14 @@ std::vector<Landmark> landmarks(const PointSet& points, const sim::Pose& T_CN,
     if (depth_after_m < kNearest_m || !in_image(points.camera, after[i])) continue;
     seen.push_back({.before_px = site.px,
                     .after_px = after[i],
-                    .depth_before_m = site.depth_m,
                     .depth_after_m = depth_after_m,
                     .learnt_ratio = learnt_ratio(points.camera, learning, site, T_CN.p)});
   }
   return seen;
 }
 
-Step step_to(const sim::Pinhole& camera, const sim::Pose& T_CN, double dt_s,
-             const FieldParameters& field) {
+FieldStep step_to(const sim::Pinhole& camera, const sim::Pose& T_CN, double dt_s,
+                  const FieldParameters& field) {
   return {bench::intrinsics(camera), bench::motion_between({}, T_CN, dt_s), field};
 }
 

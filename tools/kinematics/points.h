@@ -29,7 +29,7 @@ enum class DepthSource {
   truth,      ///< the true depth
 };
 
-struct Model {
+struct FieldModel {
   RotationModel rotation = RotationModel::homography;
   DepthSource depth = DepthSource::truth;
 };
@@ -38,6 +38,13 @@ inline constexpr std::array kRotations = {RotationModel::as_printed, RotationMod
                                           RotationModel::homography};
 inline constexpr std::array kDepths = {DepthSource::reference, DepthSource::learnt,
                                        DepthSource::truth};
+inline constexpr auto kModels = [] {
+  std::array<FieldModel, kRotations.size() * kDepths.size()> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = {kRotations[i / kDepths.size()], kDepths[i % kDepths.size()]};
+  }
+  return all;
+}();
 
 std::string_view name(RotationModel rotation);
 std::string_view name(DepthSource depth);
@@ -47,33 +54,15 @@ std::string_view name(DepthSource depth);
 struct Landmark {
   Vec2 before_px = Vec2::Zero();  ///< in frame k-1
   Vec2 after_px = Vec2::Zero();   ///< in frame k: the truth
-  double depth_before_m = 0;
   double depth_after_m = 0;
   double learnt_ratio = 1;  ///< Z_ref / Z in frame k-1, estimated from the earlier motion
 };
 
 /// The camera, its motion as given to the model, and the filter's parameters of the field.
-struct Step {
+struct FieldStep {
   Intrinsics camera;
   EgoMotion motion;
   FieldParameters field;
-};
-
-/// Predicts one step with one model.
-class Predictor {
- public:
-  Predictor(const Step& step, const Model& model);
-
-  Vec2 operator()(const Landmark& landmark) const;
-
-  /// End-point error, px.
-  double error(const Landmark& landmark) const {
-    return ((*this)(landmark)-landmark.after_px).norm();
-  }
-
- private:
-  MotionField field_;
-  DepthSource depth_;
 };
 
 /// End-point errors, px. Without points all figures are 0.
@@ -91,8 +80,8 @@ void append(std::vector<Value>& all, const std::vector<Value>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Errors of one model on landmarks that share a step.
-std::vector<double> errors(const Step& step, const Model& model,
+/// End-point errors, px, of one model on landmarks that share a step.
+std::vector<double> errors(const FieldStep& step, const FieldModel& model,
                            const std::vector<Landmark>& landmarks);
 
 // ---- The points
@@ -136,8 +125,8 @@ std::vector<Landmark> landmarks(const PointSet& points, const sim::Pose& T_CN,
                                 const FieldParameters& field);
 
 /// The exact motion to a camera at `T_CN`.
-Step step_to(const sim::Pinhole& camera, const sim::Pose& T_CN, double dt_s,
-             const FieldParameters& field);
+FieldStep step_to(const sim::Pinhole& camera, const sim::Pose& T_CN, double dt_s,
+                  const FieldParameters& field);
 
 /// The pose after a rotation about an axis of the camera (0: x, tilt; 1: y, pan; 2: z, roll) and a
 /// translation by `displacement_C_m`.

@@ -44,7 +44,6 @@ std::vector<Landmark> landmarks_of(const Layers& layers, const sim::Pinhole& cam
     landmarks.push_back(
         {.before_px = before,
          .after_px = after,
-         .depth_before_m = labels[i].depth_m,
          .depth_after_m = (T_NC * camera.back_project(before, labels[i].depth_m)).z(),
          .learnt_ratio = ratios[i]});
   }
@@ -71,14 +70,12 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
 
   struct Case {
     std::string told;
-    Model model;
+    FieldModel model;
     std::vector<double> errors_px;
   };
   std::vector<Case> cases;
   for (const char* told : {"truth", "imu"}) {
-    for (const RotationModel rotation : kRotations) {
-      for (const DepthSource depth : kDepths) cases.push_back({told, {rotation, depth}, {}});
-    }
+    for (const FieldModel& model : kModels) cases.push_back({told, model, {}});
   }
   DriveResult result;
   std::vector<double> reference_px;  // by theory, for the reference depth

@@ -4,13 +4,10 @@
 #include <utility>
 
 namespace lcs::kinematics {
-namespace {
 
 constexpr std::array kStudyDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0};
 constexpr std::array kLenses_deg = {20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 110.0};
 constexpr int kSweeps = 3;
-
-}  // namespace
 
 PointSet study_points(const sim::Pinhole& camera) {
   return geometric_points(camera, kStudyDepths_m);

@@ -15,7 +15,7 @@ using Tick = std::function<void(int)>;  ///< called with the number of pieces of
 struct DriveRow {
   std::string drive;  ///< "configured", "straight", "turning", "bumps"
   std::string told;   ///< source of the motion: "truth", or "imu" as configured
-  Model model;
+  FieldModel model;
   ErrorSummary error;
   /// For the reference depth with true motion: V_v t_f |Z_ref / Z - 1|; NaN for others.
   double expected_median_px = 0;
@@ -57,7 +57,7 @@ struct RotationRow {
   int axis = 0;
   double angle_deg = 0;
   double step_m = 0;  ///< forward motion of the camera; 0: it only turns
-  Model model;
+  FieldModel model;
   ErrorSummary error;
 };
 std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
@@ -90,7 +90,7 @@ inline constexpr double kFoePan_deg = 1;
 struct FoeRow {
   std::string points;
   double from_px = 0, to_px = 0;
-  Model model;
+  FieldModel model;
   ErrorSummary error;
 };
 std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
@@ -172,11 +172,9 @@ int bump_pieces();
 
 /// Root mean square errors of attitude, and of velocity in the rover's frame.
 struct DriftErrors {
-  double tilt_rad = 0;     ///< about each horizontal axis
-  double heading_rad = 0;  ///< about the vertical
-  double forward_mps = 0;
-  double lateral_mps = 0;
-  double vertical_mps = 0;
+  double tilt_rad = 0;                                       ///< about each horizontal axis
+  double heading_rad = 0;                                    ///< about the vertical
+  Eigen::Vector3d velocity_B_mps = Eigen::Vector3d::Zero();  ///< forward, lateral, vertical
 };
 
 struct DriftRow {

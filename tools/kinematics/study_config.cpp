@@ -7,11 +7,8 @@
 #include "tools/bench/detector.h"
 
 namespace lcs::kinematics {
-namespace {
 
 constexpr double kStandInSpeed_mps = 0.5;  // if the scenario's rover is static
-
-}  // namespace
 
 StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) {
   StudyConfig config;
@@ -77,7 +74,7 @@ scenario::Scenario bumpy_drive(const StudyConfig& config, double duration_s, dou
                                double roughness_m) {
   scenario::Scenario s = straight_drive(config, duration_s, rate_hz);
   s.ego.drive = scenario::Drive::wheeled;
-  s.ground = config.scenario.ground.value_or(scenario::Ground{});
+  s.ground = config.scenario.ground.value_or(scenario::RoughGround{});
   s.ground->roughness_m = roughness_m;
   if (roughness_m == 0) s.ground.reset();
   return s;

@@ -45,18 +45,14 @@ class Csv {
   void put(int value) { text_ += fmt::format("{},", value); }
   void put(bool value) { put(std::string_view(value ? "yes" : "no")); }
   void put(DepthSource depth) { put(name(depth)); }
-  void put(const Model& model) {
+  void put(const FieldModel& model) {
     put(name(model.rotation));
     put(name(model.depth));
   }
-  void put(const double (&three)[3]) {
-    for (const double value : three) put(value);
-  }
+  void put(const double (&three)[3]) { put_all(three[0], three[1], three[2]); }
   void put(const DriftErrors& e) {
-    for (const double value :
-         {e.tilt_rad, e.heading_rad, e.forward_mps, e.lateral_mps, e.vertical_mps}) {
-      put(value);
-    }
+    const Eigen::Vector3d& v = e.velocity_B_mps;
+    put_all(e.tilt_rad, e.heading_rad, v.x(), v.y(), v.z());
   }
   void put(const RotationRow& r) {
     put_all(r.points, axis_name(r.axis), r.angle_deg, r.step_m, r.model, r.error);
@@ -143,8 +139,8 @@ constexpr struct {
 
 }  // namespace
 
-bench::ResultNames study_files() {
-  bench::ResultNames names{kAnswerText, kAnswerTable, kPage};
+files::ResultNames study_files() {
+  files::ResultNames names{kAnswerText, kAnswerTable, kPage};
   for (const auto& table : kTables) names.push_back(fmt::format("{}.csv", table.name));
   return names;
 }
@@ -162,16 +158,15 @@ void write_study(const std::filesystem::path& folder, const Study& study) {
   }
   for (const auto& table : kTables) {
     const std::string csv = table.csv(study, table.columns);
-    bench::write_file(folder / fmt::format("{}.csv", table.name), csv);
+    files::write_file(folder / fmt::format("{}.csv", table.name), csv);
     data["tables"][table.name] = csv;
   }
-  bench::write_file(folder / kAnswerText, text_of(config, statements));
-  bench::write_file(folder / kAnswerTable, answer_csv(statements));
-  report::write_page(folder / kPage,
-                     {.title = "lcs kinematics: " + config.scenario.name,
-                      .data = bench::json_text(data),
-                      .script = kKinematicsJs,
-                      .where_else = "the CSV files"});
+  files::write_file(folder / kAnswerText, text_of(config, statements));
+  files::write_file(folder / kAnswerTable, answer_csv(statements));
+  report::write_page(folder / kPage, {.title = "lcs kinematics: " + config.scenario.name,
+                                      .data = files::json_text(data),
+                                      .script = kKinematicsJs,
+                                      .where_else = "the CSV files"});
 }
 
 }  // namespace lcs::kinematics

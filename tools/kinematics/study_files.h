@@ -10,7 +10,7 @@
 namespace lcs::kinematics {
 
 /// All files that `write_study` may write.
-bench::ResultNames study_files();
+files::ResultNames study_files();
 
 /// \throws bench::OutputError
 void write_study(const std::filesystem::path& folder, const Study& study);

@@ -20,15 +20,18 @@ constexpr std::array kMount_deg = {0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr double kFoeBin_px = 50;
 constexpr double kSmallestTurn_rad = 1e-5, kTurnStep = 1.2;  // search for limits
 
-/// Errors of a model on all point sets after one motion.
-std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
-                                 const sim::Pose& T_CN, double dt_s, const Model& model) {
+/// Errors of a model on all point sets after a motion to `T_CN`, of which `step` tells the model.
+std::vector<double> errors_after(const std::vector<PointSet>& points, const sim::Pose& T_CN,
+                                 const FieldStep& step, const FieldModel& model) {
   std::vector<double> all;
-  const Step step = step_to(config.camera, T_CN, dt_s, field_of(config.filter));
   for (const PointSet& set : points) {
-    append(all, errors(step, model, landmarks(set, T_CN, field_of(config.filter))));
+    append(all, errors(step, model, landmarks(set, T_CN, step.field)));
   }
   return all;
+}
+
+FieldStep step_of(const StudyConfig& config, const sim::Pose& T_CN) {
+  return step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter));
 }
 
 }  // namespace
@@ -44,22 +47,15 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
     for (const double angle_deg : kAngles_deg) {
       for (const bool drives : {false, true}) {
         const Eigen::Vector3d step_C = drives ? config.step_C_m() : Eigen::Vector3d::Zero();
-        for (const RotationModel rotation : kRotations) {
-          for (const DepthSource depth : kDepths) {
-            if (!drives && depth != DepthSource::truth) continue;  // depth does not matter
-            std::vector<double> all;
-            for (const double side : {-1.0, 1.0}) {
-              append(all,
-                     errors_after(config, points, turned(axis, side * angle_deg * kDegree, step_C),
-                                  config.frame_s(), {rotation, depth}));
-            }
-            rows.push_back({points.front().name,
-                            axis,
-                            angle_deg,
-                            step_C.norm(),
-                            {rotation, depth},
-                            summary(std::move(all))});
+        for (const FieldModel& model : kModels) {
+          if (!drives && model.depth != DepthSource::truth) continue;  // depth does not matter
+          std::vector<double> all;
+          for (const double side : {-1.0, 1.0}) {
+            const sim::Pose T_CN = turned(axis, side * angle_deg * kDegree, step_C);
+            append(all, errors_after(points, T_CN, step_of(config, T_CN), model));
           }
+          rows.push_back({points.front().name, axis, angle_deg, step_C.norm(), model,
+                          summary(std::move(all))});
         }
       }
     }
@@ -73,7 +69,7 @@ double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
     double largest = 0;
     for (const double side : {-1.0, 1.0}) {
       const sim::Pose T_CN = turned(axis, side * angle);
-      Step step = step_to(points.camera, T_CN, 1, field);
+      FieldStep step = step_to(points.camera, T_CN, 1, field);
       step.motion.w_C_radps *= told_sign;
       for (const double error :
            errors(step, {rotation, DepthSource::truth}, landmarks(points, T_CN, field))) {
@@ -104,17 +100,18 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
     const double step_m = speed / rate;
     if (step_m / depth_m > kMostOfDepth) return;
     const sim::Pose T_CN{Eigen::Matrix3d::Identity(), step_m * config.forward_C};
+    const FieldStep step = step_to(config.camera, T_CN, 1 / rate, field_of(config.filter));
     for (const DepthSource depth : kDepths) {
-      const Model model{RotationModel::homography, depth};
-      rows.push_back({points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
-                      summary(errors_after(config, points, T_CN, 1 / rate, model))});
+      rows.push_back(
+          {points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
+           summary(errors_after(points, T_CN, step, {RotationModel::homography, depth}))});
     }
   };
   std::vector<double> depths_m;
   for (const PointSet& set : rendered) {
     for (const Site& site : set.sites) depths_m.push_back(site.depth_m);
   }
-  const auto median_m = bench::median(depths_m);
+  const auto median_m = scoring::median(depths_m);
   for (const double speed : kSpeeds_mps) {
     for (const double rate : kRates_hz) {
       for (const double depth_m : kDepths_m) {
@@ -129,12 +126,11 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
 std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
                                        const std::vector<PointSet>& points) {
   const sim::Pose T_CN = turned(1, kFoePan_deg * kDegree, config.step_C_m());
-  const Step step = step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter));
+  const FieldStep step = step_of(config, T_CN);
   const MotionField field(step.camera, step.motion, step.field);
   std::vector<Landmark> seen;
   for (const PointSet& set : points) {
-    const std::vector<Landmark> more = landmarks(set, T_CN, field_of(config.filter));
-    seen.insert(seen.end(), more.begin(), more.end());
+    append(seen, landmarks(set, T_CN, field_of(config.filter)));
   }
   std::vector<FoeRow> rows;
   const double diagonal_px = std::hypot(config.camera.width_px, config.camera.height_px);
@@ -147,12 +143,9 @@ std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
       if (distance >= from && distance < from + kFoeBin_px) there.push_back(landmark);
     }
     if (there.empty()) continue;
-    for (const RotationModel rotation : kRotations) {
-      for (const DepthSource depth : kDepths) {
-        const Model model{rotation, depth};
-        rows.push_back({points.front().name, from, from + kFoeBin_px, model,
-                        summary(errors(step, model, there))});
-      }
+    for (const FieldModel& model : kModels) {
+      rows.push_back({points.front().name, from, from + kFoeBin_px, model,
+                      summary(errors(step, model, there))});
     }
   }
   return rows;
@@ -172,17 +165,13 @@ std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<P
     for (const double error_deg : kMount_deg) {
       for (const double pan_deg : {0.0, kMountPan_deg}) {
         const sim::Pose T_CN = turned(1, pan_deg * kDegree, config.step_C_m());
-        Step step = step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter));
+        FieldStep step = step_of(config, T_CN);
         const auto foe = MotionField(step.camera, step.motion, step.field).foe();
         step.motion = seen_by_wrong_mount(step.motion, turned(axis, error_deg * kDegree).R);
         const auto told_foe = MotionField(step.camera, step.motion, step.field).foe();
-        std::vector<double> all;
-        for (const PointSet& set : points) {
-          append(all, errors(step, {}, landmarks(set, T_CN, field_of(config.filter))));
-        }
         rows.push_back({points.front().name, axis, error_deg, pan_deg,
                         foe && told_foe ? (*told_foe - *foe).norm() : std::nan(""),
-                        summary(std::move(all))});
+                        summary(errors_after(points, T_CN, step, {}))});
       }
     }
   }
@@ -206,7 +195,7 @@ FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fov
         kDegree;
   }
   const sim::Pose T_CN{Eigen::Matrix3d::Identity(), config.step_C_m()};
-  const Step step = step_to(points.camera, T_CN, config.frame_s(), field);
+  const FieldStep step = step_to(points.camera, T_CN, config.frame_s(), field);
   const std::vector<Landmark> seen = landmarks(points, T_CN, field);
   const auto median = [&](DepthSource depth) {
     return summary(errors(step, {RotationModel::homography, depth}, seen)).median_px;

@@ -23,6 +23,30 @@ double worst_in_corners(const sim::Pinhole& camera, const Error& error) {
   return worst;
 }
 
+/// Variances, (m/s)^2, of a velocity corrected by odometry with white noise, in steady state: the
+/// Kalman filter of v' = a + n_a, a' = n with n of density q^2 = s_ba^2 + g^2 s_g^2 (both appear as
+/// an unknown acceleration) has P = sqrt(R (s_a^2 + 2 q sqrt(R))), where R = noise^2 / rate, and
+/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's random walk is neglected: it is slower and
+/// smaller.
+///
+/// Vertically, tilt has no effect (q = s_ba) and wheels read exactly 0, so that P lacks the part of
+/// the odometry's noise, R (k1^2 + k2) / (2 k1).
+/// \return of each horizontal axis, and of the vertical one.
+Eigen::Vector2d odometry_held_velocity(const scenario::ImuNoise& noise,
+                                       const scenario::Odometry& odometry, double gravity_mps2) {
+  const double R = squared(odometry.noise_mps) / odometry.rate_hz;
+  const auto variance = [&](double q) {
+    return std::sqrt(R * (squared(noise.accelerometer_noise_density) + 2 * q * std::sqrt(R)));
+  };
+  const double horizontal_mps2 = variance(
+      std::hypot(noise.accelerometer_random_walk, gravity_mps2 * noise.gyroscope_noise_density));
+  const double q = noise.accelerometer_random_walk;
+  const double P = variance(q);
+  if (!(P > 0)) return {horizontal_mps2, 0};
+  const double k1 = P / R, k2 = q / std::sqrt(R);
+  return {horizontal_mps2, P - R * (k1 * k1 + k2) / (2 * k1)};
+}
+
 }  // namespace
 
 Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px) {
@@ -102,31 +126,12 @@ Drift dead_reckoning_drift(const scenario::ImuNoise& noise, double gravity_mps2,
   return drift;
 }
 
-HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
-                                    const scenario::Odometry& odometry, double gravity_mps2) {
-  const double R = squared(odometry.noise_mps) / odometry.rate_hz;
-  const auto variance = [&](double q) {
-    return std::sqrt(R * (squared(noise.accelerometer_noise_density) + 2 * q * std::sqrt(R)));
-  };
-  HeldVelocity held;
-  held.horizontal_mps2 = variance(
-      std::hypot(noise.accelerometer_random_walk, gravity_mps2 * noise.gyroscope_noise_density));
-  const double q = noise.accelerometer_random_walk;
-  const double P = variance(q);
-  if (P > 0) {
-    const double k1 = P / R, k2 = q / std::sqrt(R);
-    held.vertical_mps2 = P - R * (k1 * k1 + k2) / (2 * k1);
-  }
-  return held;
-}
-
 Eigen::Vector3d velocity_variance_B(const scenario::Scenario& scenario, double gravity_mps2,
                                     double speed_mps, double t_s) {
   const scenario::Odometry& odometry = scenario.odometry;
   if (odometry.enabled) {
-    const HeldVelocity held = odometry_held_velocity(scenario.imu.noise, odometry, gravity_mps2);
-    return {held.horizontal_mps2 + squared(odometry.scale_error * speed_mps), held.horizontal_mps2,
-            held.vertical_mps2};
+    const Eigen::Vector2d held = odometry_held_velocity(scenario.imu.noise, odometry, gravity_mps2);
+    return {held.x() + squared(odometry.scale_error * speed_mps), held.x(), held.y()};
   }
   const Drift drift = dead_reckoning_drift(scenario.imu.noise, gravity_mps2, t_s);
   const double aside = squared(speed_mps) * drift.attitude_rad2;

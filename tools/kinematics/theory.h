@@ -36,8 +36,7 @@ double mount_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& lan
 
 /// Angle about an axis at which the printed rotation's first-order error reaches `bound_px`
 /// somewhere in the image, rad.
-double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px,
-                         double told_sign = 1);
+double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px, double told_sign);
 
 /// Errors of the strapdown integration of an IMU that is at rest, or drives straight on, after
 /// `t_s`: variances, each of one axis, of attitude (rad^2) and velocity ((m/s)^2).
@@ -52,21 +51,6 @@ struct Drift {
   double velocity_vertical_mps2 = 0;    ///< s_a^2 t + s_ba^2 t^3/3 + a0^2 t^2
 };
 Drift dead_reckoning_drift(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
-
-/// Variances, (m/s)^2, of a velocity corrected by odometry with white noise, in steady state: the
-/// Kalman filter of v' = a + n_a, a' = n with n of density q^2 = s_ba^2 + g^2 s_g^2 (both appear as
-/// an unknown acceleration) has P = sqrt(R (s_a^2 + 2 q sqrt(R))), where R = noise^2 / rate, and
-/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's random walk is neglected: it is slower and
-/// smaller.
-///
-/// Vertically, tilt has no effect (q = s_ba) and wheels read exactly 0, so that P lacks the part of
-/// the odometry's noise, R (k1^2 + k2) / (2 k1).
-struct HeldVelocity {
-  double horizontal_mps2 = 0;
-  double vertical_mps2 = 0;
-};
-HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
-                                    const scenario::Odometry& odometry, double gravity_mps2);
 
 /// Variances, (m/s)^2, of the velocity forwards, to the left and upwards, after driving straight
 /// ahead for `t_s` from a known start: corrected by the scenario's odometry, or by dead reckoning,

@@ -7,7 +7,7 @@
 namespace lcs::tools {
 namespace {
 
-using GenerateOptions = Quietable<app::GenerateRequest>;
+using GenerateFlags = Quietable<app::GenerateRequest>;
 
 constexpr const char* kGenerateHelp = R"(Examples:
   lcs generate scenarios/crossing.yaml --out data/crossing
@@ -34,7 +34,7 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
-ExitCode generate(const GenerateOptions& options) {
+ExitCode generate(const GenerateFlags& options) {
   Terminal terminal(options.quiet);
   if (options.request.is_of_many()) {
     return app::generate_suite(options.request, terminal).errors.empty() ? kFine : kError;

@@ -59,8 +59,8 @@ bool is_interrupted() {
 }
 
 void check_interrupted() {
-  if (requested == SIGXFSZ) bench::fail_to("write", "a file", EFBIG);
-  if (requested == SIGPIPE) bench::fail_to("write", "the output", EPIPE);
+  if (requested == SIGXFSZ) files::fail_to("write", "a file", EFBIG);
+  if (requested == SIGPIPE) files::fail_to("write", "the output", EPIPE);
   if (requested) throw Interrupted();
 }
 

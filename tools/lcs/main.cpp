@@ -1,13 +1,11 @@
 /// \file
 /// The `lcs` command.
-#include <fmt/format.h>
 
 #include <exception>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
-#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -67,7 +65,7 @@ int main(int argc, char** argv) {
     return fail(kNoMemory);
   } catch (const cv::Exception& error) {
     return fail(error.code == cv::Error::StsNoMem ? kNoMemory : error.what());
-  } catch (const lcs::bench::OutputError& error) {
+  } catch (const lcs::files::OutputError& error) {
     fail(error.what());
     return is_child ? lcs::suite::kFaultyDisk : kError;
   } catch (const std::system_error& error) {

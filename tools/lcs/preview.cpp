@@ -62,7 +62,7 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
   const auto [least, most] =
       std::ranges::minmax(p.corners_px, {}, [](const auto& corners) { return corners.size(); });
   text += fmt::format("  corners  {} to {} a frame\n", least.size(), most.size());
-  for (const preview::Mover& mover : p.movers) {
+  for (const preview::PreviewMover& mover : p.movers) {
     text += fmt::format(
         "  actor    {}: {}, nearest {:.2f} m at {:.1f} s, in {} of {} pictures\n", mover.name,
         mover.moves
@@ -76,16 +76,15 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
       scenario::load(scenario_file(options.scenario), {.sets = options.sets, .seed = options.seed});
-  bench::Output page(options.out.empty() ? fs::path("out") / "preview" / (scenario.name + ".html")
-                                         : fs::path(options.out),
-                     bench::overwrite(options.force));
-  std::vector<bench::Output*> outputs{&page};
-  std::optional<bench::Output> world;
+  const fs::path usual = fs::path("out") / "preview" / (scenario.name + ".html");
+  files::Output page(app::place_of(options.out, usual), files::overwrite(options.force));
+  std::vector<files::Output*> outputs{&page};
+  std::optional<files::Output> world;
   if (!options.mjcf.empty()) {
-    outputs.push_back(&world.emplace(options.mjcf, bench::overwrite(options.force)));
+    outputs.push_back(&world.emplace(options.mjcf, files::overwrite(options.force)));
   }
   const preview::Preview p = [&] {
-    Progress progress(scenario.name, scenario.frames, options.quiet);
+    ConsoleProgress progress(scenario.name, scenario.frames, options.quiet);
     return preview::preview(scenario, [&](int done) {
       check_interrupted();
       progress.show(done);
@@ -94,11 +93,11 @@ ExitCode preview(const PreviewOptions& options) {
   if (world) {
     const auto format = fs::path(options.mjcf).extension() == ".mjb" ? sim::WorldFormat::mjb
                                                                      : sim::WorldFormat::mjcf;
-    bench::write_file(world->staging(), sim::world_file(scenario, format));
+    files::write_file(world->staging(), sim::world_file(scenario, format));
   }
   preview::write_preview(page.staging(), scenario, p);
   check_interrupted();
-  bench::commit_all(outputs);
+  files::commit_all(outputs);
   if (!options.quiet) print_preview(scenario, p, page.target());
   for (const std::string& line : p.wrong) tell(line);
   return p.wrong.empty() ? kFine : kCriterionFailed;

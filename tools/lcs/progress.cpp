@@ -1,6 +1,5 @@
 #include "tools/lcs/progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <utility>
@@ -18,7 +17,7 @@ constexpr const char* kWipe = "\r\x1b[K";
 
 }  // namespace
 
-Progress::Progress(std::string name, int total, bool quiet, std::string unit)
+ConsoleProgress::ConsoleProgress(std::string name, int total, bool quiet, std::string unit)
     : name_(input::one_line(name)),
       total_(total),
       unit_(std::move(unit)),
@@ -26,16 +25,16 @@ Progress::Progress(std::string name, int total, bool quiet, std::string unit)
              : ::isatty(STDERR_FILENO) ? Style::bar
                                        : Style::lines) {}
 
-Progress::~Progress() {
+ConsoleProgress::~ConsoleProgress() {
   if (style_ == Style::bar) print_err("{}", kWipe);
 }
 
-void Progress::show(int done) {
+void ConsoleProgress::show(int done) {
   if (style_ == Style::bar) show_bar(done);
   if (style_ == Style::lines) show_line(done);
 }
 
-void Progress::show_bar(int done) {
+void ConsoleProgress::show_bar(int done) {
   const Clock::time_point now = Clock::now();
   if (now - shown_ < kBarPeriod && done < total_) return;
   shown_ = now;
@@ -45,7 +44,7 @@ void Progress::show_bar(int done) {
             kBarWidth - filled, done, total_, unit_, seconds / done * (total_ - done));
 }
 
-void Progress::show_line(int done) {
+void ConsoleProgress::show_line(int done) {
   // Prints a line each time another quarter is complete.
   if (done * kLines / total_ > told_ * kLines / total_) {
     print_err("{}: {}/{} {}\n", name_, done, total_, unit_);

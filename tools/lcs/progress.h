@@ -9,15 +9,15 @@
 
 namespace lcs::tools {
 
-class Progress : public app::Progress {
+class ConsoleProgress : public app::Progress {
  public:
   /// \param total number of `unit`s to process.
   /// \param quiet prints nothing.
-  Progress(std::string name, int total, bool quiet, std::string unit = "frames");
+  ConsoleProgress(std::string name, int total, bool quiet, std::string unit = "frames");
   /// Erases the bar.
-  ~Progress() override;
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ~ConsoleProgress() override;
+  ConsoleProgress(const ConsoleProgress&) = delete;
+  ConsoleProgress& operator=(const ConsoleProgress&) = delete;
 
   void show(int done) override;
 

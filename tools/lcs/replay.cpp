@@ -46,7 +46,7 @@ lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its
 
 ExitCode replay(const ReplayOptions& options) {
   if (!options.write.empty()) {
-    app::write_scenario(options.request, options.write, bench::overwrite(options.force));
+    app::write_scenario(options.request, options.write, files::overwrite(options.force));
     return kFine;
   }
   Terminal terminal(options.quiet);

@@ -63,43 +63,28 @@ Exit codes:
 )";
 
 void print_result(const scenario::Scenario& scenario, const std::string& detector,
-                  const bench::Metrics& metrics, std::optional<int> skipped,
+                  const scoring::Metrics& metrics, std::optional<int> skipped,
                   const std::filesystem::path& folder) {
   const std::string by = detector == "lcs" ? "" : fmt::format(" by {}", detector);
-  const double frames = bench::value(metrics, "frames").value_or(0);
+  const double frames = scoring::value(metrics, "frames").value_or(0);
   const std::string what = skipped ? fmt::format("{:.0f} pictures, {} skipped", frames, *skipped)
                                    : fmt::format("{:.0f} frames, seed {}", frames, scenario.seed);
-  const bench::Metric& speed = bench::metric("sim.frames_per_second");
+  const scoring::Metric& speed = scoring::metric("sim.frames_per_second");
   print_out("{}{}: {}, {} {}\n", scenario.name, by, what,
-            speed.number(bench::value(metrics, speed.key).value_or(0)), speed.scale.unit);
-  print_out("{}  files    {}\n", bench::table(metrics), folder.string());
+            speed.number(scoring::value(metrics, speed.key).value_or(0)), speed.scale.unit);
+  print_out("{}  files    {}\n", output::table(metrics), folder.string());
 }
 
 /// Prints a line for each missed criterion on stderr. \return whether a required one is missed.
-bool report_missed(const std::vector<bench::JudgedCriterion>& criteria) {
+bool report_missed(const std::vector<scoring::JudgedCriterion>& criteria) {
   bool failed = false;
-  for (const bench::JudgedCriterion& one : criteria) {
+  for (const scoring::JudgedCriterion& one : criteria) {
     if (one.met) continue;
     tell(fmt::format("{}: {}", one.required ? "failed" : "missed (not required)", one.message));
     failed |= one.required;
   }
   return failed;
 }
-
-}  // namespace
-
-ExitCode show_run(const app::RunMade& made, bool quiet) {
-  if (!quiet) {
-    for (const app::DetectorMade& one : made.detectors) {
-      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
-    }
-  }
-  bool failed = false;
-  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
-  return failed ? kCriterionFailed : kFine;
-}
-
-namespace {
 
 ExitCode run(const RunOptions& options) {
   Terminal terminal(options.quiet);
@@ -130,6 +115,17 @@ app::Options options_of(RunOptions& options) {
 }
 
 }  // namespace
+
+ExitCode show_run(const app::RunMade& made, bool quiet) {
+  if (!quiet) {
+    for (const app::DetectorMade& one : made.detectors) {
+      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
+    }
+  }
+  bool failed = false;
+  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
+  return failed ? kCriterionFailed : kFine;
+}
 
 Command run_command() {
   return command_of(

@@ -48,7 +48,7 @@ ExitCode score(const ScoreOptions& options) {
     print_out("{}\n{}",
               input::one_line(fmt::format("{} by {}: {} frames, seed {}", run.scenario,
                                           run.detector.name, frames, run.seed)),
-              bench::table(metrics));
+              output::table(metrics));
   }
   return kFine;
 }

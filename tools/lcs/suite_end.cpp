@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "scenarios/input/message.h"
 #include "scenes/worlds/worlds.h"
@@ -27,7 +28,7 @@ std::string told_of_worlds(const suite::SuiteResult& result) {
 }
 
 /// Prints the changes, worst first.
-void print_changes(const suite::Verdict& verdict, const suite::Comparison& comparison,
+void print_changes(const suite::SuiteVerdict& verdict, const suite::Comparison& comparison,
                    const std::string& baseline) {
   print_out("Against {}:\n", baseline);
   for (const std::string& what : comparison.incomparable) {
@@ -37,17 +38,8 @@ void print_changes(const suite::Verdict& verdict, const suite::Comparison& compa
   print_out("{}", input::printable(suite::text_of(verdict)));
 }
 
-ExitCode exit_code(suite::Outcome outcome) {
-  switch (outcome) {
-    case suite::Outcome::passed:
-      return kFine;
-    case suite::Outcome::failed:
-      return kCriterionFailed;
-    case suite::Outcome::error:
-      return kError;
-  }
-  return kError;
-}
+/// In the order of `suite::Outcome`.
+constexpr std::array<ExitCode, 3> kExitCodes{kFine, kCriterionFailed, kError};
 
 }  // namespace
 
@@ -81,7 +73,9 @@ ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
     }
   }
   const bool is_worse = comparison && comparison->has_regressed();
-  if (!is_worse || !options.fail_on_regression) return exit_code(outcome);
+  if (!is_worse || !options.fail_on_regression) {
+    return kExitCodes.at(static_cast<std::size_t>(outcome));
+  }
   tell(fmt::format("against {}: {}", place.baseline, verdict.line));
   return outcome == suite::Outcome::error ? kError : kRegressed;
 }

@@ -4,8 +4,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <string>
-
 #include "scenarios/input/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/scoring/metrics.h"
@@ -25,27 +23,28 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-SuiteProgress::SuiteProgress(bool quiet)
+ConsoleSuiteProgress::ConsoleSuiteProgress(bool quiet)
     : quiet_(quiet), is_terminal_(::isatty(STDERR_FILENO) != 0) {}
 
-SuiteProgress::~SuiteProgress() {
+ConsoleSuiteProgress::~ConsoleSuiteProgress() {
   wipe();
 }
 
-void SuiteProgress::wipe() {
+void ConsoleSuiteProgress::wipe() {
   if (is_shown_) print_err("\r\x1b[K");
   is_shown_ = false;
 }
 
-void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::string& scenario,
-                             const std::vector<std::string>& detectors,
-                             std::span<const suite::RunResult* const> runs) {
+void ConsoleSuiteProgress::finished(const suite::SuiteProgress& progress,
+                                    const std::string& scenario,
+                                    const std::vector<std::string>& detectors,
+                                    std::span<const suite::RunResult* const> runs) {
   if (quiet_) return;
   wipe();
   const suite::RunResult& own = *runs.front();
   std::string figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bench::Metric& metric = bench::metric(bench::kF1);
+    const scoring::Metric& metric = scoring::metric(scoring::kF1);
     const std::optional<double> f1 = suite::figure_of(*runs[i], metric.key);
     if (!f1) continue;
     const std::string by = runs.size() > 1 ? detectors[i] + " " : "";
@@ -57,7 +56,7 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::st
   shown_ = {};
 }
 
-void SuiteProgress::show(const suite::SuiteProgress& progress) {
+void ConsoleSuiteProgress::show(const suite::SuiteProgress& progress) {
   const Clock::time_point now = Clock::now();
   if (quiet_ || !is_terminal_ || now - shown_ < kPeriod) return;
   shown_ = now;

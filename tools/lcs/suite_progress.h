@@ -11,14 +11,14 @@
 
 namespace lcs::tools {
 
-class SuiteProgress : public app::SuiteWatch {
+class ConsoleSuiteProgress : public app::SuiteWatch {
  public:
   /// \param quiet prints nothing.
-  explicit SuiteProgress(bool quiet);
+  explicit ConsoleSuiteProgress(bool quiet);
   /// Erases the status line.
-  ~SuiteProgress() override;
-  SuiteProgress(const SuiteProgress&) = delete;
-  SuiteProgress& operator=(const SuiteProgress&) = delete;
+  ~ConsoleSuiteProgress() override;
+  ConsoleSuiteProgress(const ConsoleSuiteProgress&) = delete;
+  ConsoleSuiteProgress& operator=(const ConsoleSuiteProgress&) = delete;
 
   void finished(const suite::SuiteProgress& progress, const std::string& scenario,
                 const std::vector<std::string>& detectors,

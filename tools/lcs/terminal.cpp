@@ -56,7 +56,7 @@ bool flush_out() {
 
 [[noreturn]] void fail_out() {
   if (std::ferror(stdout) == 0) throw Interrupted("interrupted before all was told");
-  bench::fail_to("write to", "standard output", errno);
+  files::fail_to("write to", "standard output", errno);
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void Terminal::note(const std::string& line) {
 
 std::unique_ptr<app::Progress> Terminal::progress(const std::string& name, int total,
                                                   const std::string& unit) {
-  return std::make_unique<Progress>(name, total, quiet_, unit);
+  return std::make_unique<ConsoleProgress>(name, total, quiet_, unit);
 }
 
 void finish_out() {

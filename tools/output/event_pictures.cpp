@@ -6,7 +6,7 @@
 #include "sim/pictures/picture_file.h"
 #include "tools/scoring/score_rebels.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 constexpr int kShownQuality = 72;
@@ -31,21 +31,17 @@ struct Cut {
   }
 };
 
-/// Size of a view's crop in the kept picture, px.
-cv::Size cut_size(const EventView& view, const cv::Size& kept, double scale) {
+Cut cut_out(const scoring::EventView& view, const cv::Size& kept, double scale) {
   constexpr double kAspect = static_cast<double>(kEventPictureWidth_px) / kEventPictureHeight_px;
   const Vec2 wanted =
       2 * (scale * (1 + kMarginShare) * view.half_size_px + Vec2(kMargin_px, kMargin_px));
   const double width = std::min({std::max({kLeastWidth_px, wanted.x(), wanted.y() * kAspect}),
                                  static_cast<double>(kept.width), kept.height * kAspect});
-  return {std::max(1, cvRound(width)),
-          std::max(1, std::min(kept.height, cvRound(width / kAspect)))};
-}
-
-Cut cut_out(const EventView& view, const cv::Size& size, const cv::Size& kept, double scale) {
+  const cv::Size size(std::max(1, cvRound(width)),
+                      std::max(1, std::min(kept.height, cvRound(width / kAspect))));
   const auto start = [&](double centre, int length, int available) {
-    const double wanted = (centre + 0.5) * scale - 0.5 * length;
-    return cvRound(std::clamp(wanted, 0.0, static_cast<double>(available - length)));
+    const double first = (centre + 0.5) * scale - 0.5 * length;
+    return cvRound(std::clamp(first, 0.0, static_cast<double>(available - length)));
   };
   return {{start(view.centre_px.x(), size.width, kept.width),
            start(view.centre_px.y(), size.height, kept.height), size.width, size.height},
@@ -53,21 +49,21 @@ Cut cut_out(const EventView& view, const cv::Size& size, const cv::Size& kept, d
 }
 
 /// Missed: a ring. Found: a dot. False: a cross.
-void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
+void mark(cv::Mat3b& picture, cv::Point at, scoring::CornerOutcome outcome) {
   constexpr int kReach = 3;
   const auto cross = [&](const cv::Scalar& colour, int width) {
     cv::drawMarker(picture, at, colour, cv::MARKER_TILTED_CROSS, 2 * kReach, width, cv::LINE_AA);
   };
   switch (outcome) {
-    case CornerOutcome::missed:
+    case scoring::CornerOutcome::missed:
       cv::circle(picture, at, kReach, kMissed, 1, cv::LINE_AA);
       return;
-    case CornerOutcome::found:
-    case CornerOutcome::found_early:
+    case scoring::CornerOutcome::found:
+    case scoring::CornerOutcome::found_early:
       cv::circle(picture, at, kReach, kShadow, cv::FILLED, cv::LINE_AA);
       cv::circle(picture, at, kReach - 1, kFound, cv::FILLED, cv::LINE_AA);
       return;
-    case CornerOutcome::false_rebel:
+    case scoring::CornerOutcome::false_rebel:
       cross(kShadow, 3);
       cross(kFalse, 1);
       return;
@@ -76,12 +72,13 @@ void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
   }
 }
 
-cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
-                const cv::Mat3b& kept, const Cut& cut, const Event& event) {
+cv::Mat3b paint(const recording::FrameRecord& frame,
+                const std::vector<scoring::CornerOutcome>& outcomes, const cv::Mat3b& kept,
+                const Cut& cut, const scoring::ScoredEvent& event) {
   cv::Mat3b picture;
   cv::resize(kept(cut.area), picture, {kEventPictureWidth_px, kEventPictureHeight_px}, 0, 0,
              cut.area.width > kEventPictureWidth_px ? cv::INTER_AREA : cv::INTER_CUBIC);
-  const bool of_squares = family_of(event.kind) == EventFamily::squares;
+  const bool of_squares = scoring::family_of(event.kind) == scoring::EventFamily::squares;
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     const bool is_meant = of_squares && truth.object == event.object;
     if (!truth.moving && !of_squares) continue;
@@ -101,13 +98,14 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
     }
     return picture;
   }
-  for (const Circle* circle : false_circles(frame)) {
+  for (const Circle* circle : scoring::false_circles(frame)) {
     const cv::Point rim = cut.at(circle->location + Vec2(circle->radius, 0));
     const cv::Point centre = cut.at(circle->location);
     cv::circle(picture, centre, rim.x - centre.x, kFalse, 1, cv::LINE_AA);
   }
-  for (const CornerOutcome last : {CornerOutcome::found_early, CornerOutcome::found,
-                                   CornerOutcome::false_rebel, CornerOutcome::missed}) {
+  for (const scoring::CornerOutcome last :
+       {scoring::CornerOutcome::found_early, scoring::CornerOutcome::found,
+        scoring::CornerOutcome::false_rebel, scoring::CornerOutcome::missed}) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (outcomes[i] != last) continue;
       const cv::Point at = cut.at(frame.corners_px[i].cast<double>());
@@ -122,26 +120,27 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
 
 }  // namespace
 
-std::set<int> frames_shown(const std::vector<Event>& events) {
+std::set<int> frames_shown(const std::vector<scoring::ScoredEvent>& events) {
   std::set<int> frames;
-  for (const Event& event : events) {
-    for (const EventView& view : event.views) frames.insert(view.frame);
+  for (const scoring::ScoredEvent& event : events) {
+    for (const scoring::EventView& view : event.views) frames.insert(view.frame);
   }
   return frames;
 }
 
-void paint_views(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
-                 const FramePictures& pictures, std::vector<Event>& events) {
+void paint_views(const recording::FrameRecord& frame,
+                 const std::vector<scoring::CornerOutcome>& outcomes, const FramePictures& pictures,
+                 std::vector<scoring::ScoredEvent>& events) {
   double scale = 1;
   const cv::Mat3b kept = pictures.at(static_cast<std::size_t>(frame.index), scale);
-  for (Event& event : events) {
-    for (EventView& view : event.views) {
+  for (scoring::ScoredEvent& event : events) {
+    for (scoring::EventView& view : event.views) {
       if (view.frame != frame.index) continue;
-      const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
-      view.jpeg_base64 =
-          base64(sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality));
+      const Cut cut = cut_out(view, kept.size(), scale);
+      view.jpeg_base64 = scoring::base64(
+          sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality));
     }
   }
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

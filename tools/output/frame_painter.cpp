@@ -8,10 +8,10 @@
 #include "tools/scoring/score_rebels.h"
 #include "tools/scoring/score_squares.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
-std::vector<Mark> corner_marks(const FrameRecord& frame) {
+std::vector<Mark> corner_marks(const recording::FrameRecord& frame) {
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
     const sim::Label label = frame.corner_truth[i].label;
@@ -23,8 +23,8 @@ std::vector<Mark> corner_marks(const FrameRecord& frame) {
   return marks;
 }
 
-std::vector<Mark> circle_marks(const FrameRecord& frame) {
-  const std::vector<const Circle*> wrong = false_circles(frame);
+std::vector<Mark> circle_marks(const recording::FrameRecord& frame) {
+  const std::vector<const Circle*> wrong = scoring::false_circles(frame);
   std::vector<Mark> marks;
   for (const Circle& circle : frame.layers.rebel_circles) {
     marks.push_back(std::ranges::find(wrong, &circle) != wrong.end() ? Mark::wrong : Mark::found);
@@ -32,11 +32,12 @@ std::vector<Mark> circle_marks(const FrameRecord& frame) {
   return marks;
 }
 
-std::vector<Mark> square_marks(const FrameRecord& frame, const SquareOutcomes& outcomes) {
+std::vector<Mark> square_marks(const recording::FrameRecord& frame,
+                               const scoring::SquareOutcomes& outcomes) {
   std::vector<Mark> marks;
   for (const Square& square : frame.layers.squares) {
-    const bool right =
-        std::ranges::find(outcomes.right, square.id, &BoxPair::square) != outcomes.right.end();
+    const bool right = std::ranges::find(outcomes.right, square.id, &scoring::BoxPair::square) !=
+                       outcomes.right.end();
     const bool wrong = std::ranges::find(outcomes.wrong, square.id) != outcomes.wrong.end();
     marks.push_back(right ? Mark::found : wrong ? Mark::wrong : Mark::none);
   }
@@ -45,26 +46,23 @@ std::vector<Mark> square_marks(const FrameRecord& frame, const SquareOutcomes& o
 
 }  // namespace
 
-FramePainter::FramePainter(cv::Size image_px, const RunInfo& run)
-    : sheet_(image_px), scenario_(run.scenario), is_truth_known_(run.truth == Truth::all) {
-  for (const sim::Object& object : run.objects) names_[object.id] = object.name;
-}
-
-cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) const {
-  SquareOutcomes outcomes;
-  if (is_truth_known_) outcomes = square_outcomes(frame);
+cv::Mat3b painted(const PanelSheet& sheet, const recording::RunInfo& run,
+                  const recording::FrameRecord& frame, const cv::Mat3b& image) {
+  const bool is_truth_known = run.truth == recording::Truth::all;
+  scoring::SquareOutcomes outcomes;
+  if (is_truth_known) outcomes = scoring::square_outcomes(frame);
   // Pixel edges to pixel centres: the outermost centres of pixels l to r-1 are at l and r-1.
   std::vector<TruthBox> truth;
   for (const sim::ObjectTruth& object : frame.object_truth) {
-    const auto name = names_.find(object.object);
-    const bool found =
-        std::ranges::find(outcomes.right, object.object, &BoxPair::box) != outcomes.right.end();
+    const auto named = std::ranges::find(run.objects, object.object, &sim::Object::id);
+    const bool found = std::ranges::find(outcomes.right, object.object, &scoring::BoxPair::box) !=
+                       outcomes.right.end();
     truth.push_back({Vec2(object.left, object.top), Vec2(object.right - 1, object.bottom - 1),
-                     object.moving, name == names_.end() ? "" : name->second,
+                     object.moving, named == run.objects.end() ? "" : named->name,
                      outcomes.eligible.contains(object.object) && !found});
   }
   if (frame.labels) {
-    for (const LabelledBox& label : *frame.labels) {
+    for (const recording::LabelledBox& label : *frame.labels) {
       truth.push_back(
           {Vec2(label.left, label.top), Vec2(label.right - 1, label.bottom - 1), !label.ignored});
     }
@@ -74,11 +72,11 @@ cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) 
                        .verdicts = frame.verdicts,
                        .layers = frame.layers,
                        .truth = truth,
-                       .caption = fmt::format("{}  frame {}  {:.2f} s", scenario_, frame.index,
+                       .caption = fmt::format("{}  frame {}  {:.2f} s", run.scenario, frame.index,
                                               static_cast<double>(frame.t_ns) * 1e-9)};
   std::vector<Mark> corners, circles, squares;
   std::vector<Vec2> radial_px;
-  if (is_truth_known_) {
+  if (is_truth_known) {
     content.corner_marks = corners = corner_marks(frame);
     for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
       if (frame.corner_truth[i].radial) radial_px.push_back(frame.corners_px[i].cast<double>());
@@ -87,7 +85,7 @@ cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) 
     content.rebel_circle_marks = circles = circle_marks(frame);
     content.square_marks = squares = square_marks(frame, outcomes);
   }
-  return sheet_.draw(content);
+  return sheet.draw(content);
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

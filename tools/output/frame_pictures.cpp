@@ -10,7 +10,7 @@
 
 #include "sim/pictures/picture_file.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 /// A JPEG's first and last marker. The data of `sim::encode_jpeg` contain neither in between.
@@ -70,10 +70,6 @@ FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_p
   }
 }
 
-void FramePictures::copy_to(const std::filesystem::path& file) const {
-  copy_bytes(path_, file);
-}
-
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   scale = scale_;
   const std::uint64_t start = starts_.at(position);
@@ -86,4 +82,4 @@ cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   }
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -10,7 +10,7 @@
 #include "scenarios/input/input_file.h"
 #include "tools/files/output_file.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 
 inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 
@@ -26,7 +26,7 @@ class PicturesWriter {
   void close() { file_.close(); }
 
  private:
-  OutputFile file_;
+  files::OutputFile file_;
 };
 
 /// The images of a run in a file of `PicturesWriter`. Each is read when it is asked for.
@@ -42,8 +42,7 @@ class FramePictures {
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return starts_.size() - 1; }
 
-  /// \throws as `copy_bytes`
-  void copy_to(const std::filesystem::path& file) const;
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
@@ -52,4 +51,4 @@ class FramePictures {
   double scale_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 constexpr double kDim = 0.75;       // brightness of the image, so that thin lines stand out
@@ -135,19 +135,6 @@ class Pen {
   std::vector<cv::Rect> names_;  // their boxes
 };
 
-void draw_truth(Pen& pen, std::span<const TruthBox> truth) {
-  for (const TruthBox& box : truth) {
-    pen.box(box.min_px, box.max_px, box.moving ? colour::kMovingTruth : colour::kStaticTruth, 1);
-  }
-}
-
-/// Names of movers, on top of everything.
-void name_movers(Pen& pen, std::span<const TruthBox> truth) {
-  for (const TruthBox& box : truth) {
-    if (box.moving && !box.name.empty()) pen.name(box.min_px, box.name, colour::kMovingTruth);
-  }
-}
-
 /// Drawn over the layers, as a region often coincides with its layer. \return their number.
 std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
                          IgnoreRegion::Shape shape) {
@@ -206,11 +193,9 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
     const cv::Point middle(x + kSample / 2, band.rows / 2);
     switch (word.sample) {
       case Sample::fill:
-        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour,
-                      cv::FILLED);
-        break;
       case Sample::line:
-        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour, 1);
+        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour,
+                      word.sample == Sample::fill ? cv::FILLED : 1);
         break;
       case Sample::ring:
         cv::circle(band, middle, 4, word.colour, 2, cv::LINE_AA);
@@ -292,11 +277,9 @@ PanelText draw_edges(Pen& pen, const PanelContent& content) {
       pen.small_square(edge.predicted, kPredictedHalf, colour::kPredicted);
     }
   }
-  for (const Edge& edge : layers.normal_edges) {
-    pen.small_square(edge.location, kEdgeHalf, colour::kNormalEdge);
-  }
-  for (const Edge& edge : layers.rebel_edges) {
-    pen.small_square(edge.location, kEdgeHalf, colour::kRebel);
+  for (const auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+    const auto& colour = edges == &layers.rebel_edges ? colour::kRebel : colour::kNormalEdge;
+    for (const Edge& edge : *edges) pen.small_square(edge.location, kEdgeHalf, colour);
   }
   for (const Vec2& at : content.radial_px) pen.diamond(at, colour::kMovingTruth);
   for (std::size_t i = 0; i < content.corner_marks.size(); ++i) {
@@ -432,9 +415,13 @@ cv::Mat3b PanelSheet::draw(const PanelContent& content) const {
     cv::Mat3b target = sheet(at);
     background.copyTo(target);
     Pen pen(target, image_);
-    draw_truth(pen, content.truth);
+    for (const TruthBox& box : content.truth) {
+      pen.box(box.min_px, box.max_px, box.moving ? colour::kMovingTruth : colour::kStaticTruth, 1);
+    }
     const PanelText text = draw_layers(pen, content);
-    name_movers(pen, content.truth);
+    for (const TruthBox& box : content.truth) {  // names of movers, on top of everything
+      if (box.moving && !box.name.empty()) pen.name(box.min_px, box.name, colour::kMovingTruth);
+    }
     cv::rectangle(sheet, at, cv::Scalar::all(0), 1);
     cv::Mat3b caption = sheet(cv::Rect(at.x, at.y - kCaption_px, at.width, kCaption_px));
     caption = cv::Vec3b(60, 60, 60);
@@ -451,4 +438,4 @@ cv::Mat3b PanelSheet::draw(const PanelContent& content) const {
   return sheet;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -16,7 +16,7 @@
 
 #include "filter/types/layers.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 
 /// \name Colours, BGR, as in the paper.
 ///@{
@@ -97,4 +97,4 @@ class PanelSheet {
   cv::Size panel_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

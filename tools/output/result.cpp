@@ -7,7 +7,7 @@
 #include "tools/recording/warnings.h"
 #include "tools/scoring/score_rebels.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 Keep keep_of(const std::string& word) {
   const auto found = std::ranges::find(kKeepWords, word);
   if (found == kKeepWords.end()) {
@@ -16,52 +16,58 @@ Keep keep_of(const std::string& word) {
   return static_cast<Keep>(found - kKeepWords.begin());
 }
 
-ResultNames result_files() {
+files::ResultNames result_files() {
   const std::string compressed = ".gz";
-  return {kMetricsFile,  kFramesFile,
-          kLayersFile,   kLayersFile + compressed,
-          kTruthFile,    kTruthFile + compressed,
-          kDetectorFile, kCameraFile,
-          kWarningsFile, kVideoFile,
-          kEventsFile,   kPicturesFile,
-          "report.html", kHowMadeFile};
+  return {scoring::kMetricsFile,
+          scoring::kFramesFile,
+          recording::kLayersFile,
+          recording::kLayersFile + compressed,
+          recording::kTruthFile,
+          recording::kTruthFile + compressed,
+          recording::kDetectorFile,
+          recording::kCameraFile,
+          recording::kWarningsFile,
+          kVideoFile,
+          scoring::kEventsFile,
+          kPicturesFile,
+          "report.html",
+          files::kHowMadeFile};
 }
 
-Result::Result(const std::filesystem::path& target, const RunInfo& run, cv::Size image_px,
-               const ResultOptions& options)
+Result::Result(const std::filesystem::path& target, const recording::RunInfo& run,
+               cv::Size image_px, const ResultOptions& options)
     : folder_(target, result_files()),
-      keep_(options.keep),
+      options_(options),
       image_px_(image_px),
       scorer_(run),
-      painter_(image_px, run),
-      show_(options.show),
-      kept_(options.kept),
-      add_page_(options.add_page) {
+      run_(run),
+      sheet_(image_px) {
   const std::filesystem::path& folder = folder_.staging();
-  if (keep_ != Keep::figures) rows_.emplace(folder / kFramesFile, run);
+  if (options_.keep != Keep::figures) rows_.emplace(folder / scoring::kFramesFile, run);
   if (options.events) events_.emplace(run);
-  if (keep_ == Keep::all || events_) {  // the events' pictures are painted from them at the end
+  if (options_.keep == Keep::all ||
+      events_) {  // the events' pictures are painted from them at the end
     writer_.emplace(folder, run, options.compressed, !options.is_truth_there);
   }
   if (options.video_frames_per_second) {
-    video_.emplace(folder / kVideoFile, painter_.size_px(), *options.video_frames_per_second);
+    video_.emplace(folder / kVideoFile, sheet_.size_px(), *options.video_frames_per_second);
   }
 }
 
-void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
-  const FrameScore score = scorer_.add(frame);
+void Result::add(const recording::FrameRecord& frame, const cv::Mat3b& image) {
+  const scoring::FrameScore score = scorer_.add(frame);
   if (rows_) rows_->write(frame, score.rebels);
   if (events_) {
     events_->add(frame, score.outcomes);
     if (held_.size() < kMostHeld) held_.push_back(frame);
   }
   if (writer_) writer_->write(frame);
-  if (video_ || show_) {
-    const cv::Mat3b sheet = painter_.paint(frame, image);
+  if (video_ || options_.show) {
+    const cv::Mat3b sheet = painted(sheet_, run_, frame, image);
     if (video_) video_->write(sheet);
-    if (show_ && !show_(sheet)) show_ = {};
+    if (options_.show && !options_.show(sheet)) options_.show = {};
   }
-  if (events_ && !kept_ && !image.empty()) {
+  if (events_ && !options_.kept && !image.empty()) {
     if (!own_pictures_) own_pictures_.emplace(folder_.staging() / kPicturesFile);
     own_pictures_->write(image);
   }
@@ -75,15 +81,15 @@ void Result::write_events_file() {
     own_pictures_->close();
     own.emplace(folder / kPicturesFile, image_px_);
   }
-  const FramePictures* const pictures = kept_ ? kept_ : own ? &*own : nullptr;
-  std::vector<Event> events = events_->events(scorer_.detections());
-  const EventSums sums = sums_of(events);
-  keep_worst(events, kMostEvents);
+  const FramePictures* const pictures = options_.kept ? options_.kept : own ? &*own : nullptr;
+  std::vector<scoring::ScoredEvent> events = events_->events(scorer_.detections());
+  const scoring::EventSums sums = scoring::sums_of(events);
+  scoring::keep_worst(events, scoring::kMostEvents);
   if (pictures && pictures->size() > 0) {
-    std::optional<RecordingReader> frames;
+    std::optional<recording::RecordingReader> frames;
     int next = 0;
     for (const int shown : frames_shown(events)) {
-      FrameRecord frame;
+      recording::FrameRecord frame;
       if (static_cast<std::size_t>(shown) < held_.size()) {
         frame = std::move(held_[static_cast<std::size_t>(shown)]);
       } else {
@@ -92,43 +98,46 @@ void Result::write_events_file() {
         frames->next(frame);
         ++next;
       }
-      paint_views(frame, corner_outcomes(frame, scorer_.detections()), *pictures, events);
+      paint_views(frame, scoring::corner_outcomes(frame, scorer_.detections()), *pictures, events);
     }
-    if (keep_ == Keep::all && kept_) kept_->copy_to(folder / kPicturesFile);
+    if (options_.keep == Keep::all && options_.kept)
+      files::copy_bytes(options_.kept->path(), folder / kPicturesFile);
   }
-  write_events(folder / kEventsFile, events, sums);
-  if (keep_ == Keep::all) return;
+  scoring::write_events(folder / scoring::kEventsFile, events, sums);
+  if (options_.keep == Keep::all) return;
   for (const std::filesystem::path& file :
-       {stored(folder, kLayersFile), stored(folder, kTruthFile), folder / kDetectorFile,
-        folder / kCameraFile, folder / kPicturesFile}) {
+       {recording::stored(folder, recording::kLayersFile),
+        recording::stored(folder, recording::kTruthFile), folder / recording::kDetectorFile,
+        folder / recording::kCameraFile, folder / kPicturesFile}) {
     std::filesystem::remove(file);
   }
 }
 
-Metrics Result::finish(const std::optional<sim::Warnings>& world) {
+scoring::Metrics Result::finish(const std::optional<sim::Warnings>& world) {
   if (writer_) writer_->close();
   if (video_) video_->close();
   if (rows_) rows_->close();
   const std::filesystem::path& folder = folder_.staging();
-  Metrics metrics = scorer_.metrics(world);
+  scoring::Metrics metrics = scorer_.metrics(world);
   warned_ = scorer_.warned(world);
-  write_metrics(folder / kMetricsFile, metrics);
-  if (world) write_warnings(folder / kWarningsFile, warned_);
+  scoring::write_metrics(folder / scoring::kMetricsFile, metrics);
+  if (world) recording::write_warnings(folder / recording::kWarningsFile, warned_);
   if (events_) write_events_file();
-  if (add_page_) add_page_(folder, metrics);
+  if (options_.add_page) options_.add_page(folder, metrics);
   return metrics;
 }
 
 void Result::copy_truth(const std::filesystem::path& folder) {
   if (!writer_) return;
-  const std::filesystem::path theirs = stored(folder, kTruthFile);
-  copy_bytes(theirs, folder_.staging() / theirs.filename());
+  const std::filesystem::path theirs = recording::stored(folder, recording::kTruthFile);
+  files::copy_bytes(theirs, folder_.staging() / theirs.filename());
 }
 
 void Result::share_truth(const Result& other) {
   if (!writer_ || !other.writer_) return;
-  const std::filesystem::path theirs = stored(other.folder_.staging(), kTruthFile);
-  link_or_copy(theirs, folder_.staging() / theirs.filename());
+  const std::filesystem::path theirs =
+      recording::stored(other.folder_.staging(), recording::kTruthFile);
+  files::link_or_copy(theirs, folder_.staging() / theirs.filename());
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -23,31 +22,17 @@
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 
-/// Pictures of a run: each frame's four panels, with boxes of the truth beneath the layers, and the
-/// found, missed and false items of that frame alone. Unlike for recall, a rebel counts as missed
-/// from its first frame on.
-class FramePainter {
- public:
-  /// \param image_px size of the camera's image. \param run with the names of scenario and objects,
-  ///   and whether their truth is known.
-  FramePainter(cv::Size image_px, const RunInfo& run);
-
-  cv::Size size_px() const { return sheet_.size_px(); }
-
-  /// \param image of the frame, BGR. \throws std::invalid_argument like `PanelSheet::draw`.
-  cv::Mat3b paint(const FrameRecord& frame, const cv::Mat3b& image) const;
-
- private:
-  PanelSheet sheet_;
-  std::string scenario_;
-  bool is_truth_known_;
-  std::map<int, std::string> names_;  ///< by object id
-};
+/// A frame's four panels, with boxes of the truth beneath the layers, and the found, missed and
+/// false items of that frame alone. Unlike for recall, a rebel counts as missed from its first
+/// frame on. \param run with the names of scenario and objects, and whether their truth is known.
+/// \param image of the frame, BGR. \throws std::invalid_argument like `PanelSheet::draw`.
+cv::Mat3b painted(const PanelSheet& sheet, const recording::RunInfo& run,
+                  const recording::FrameRecord& frame, const cv::Mat3b& image);
 
 /// All files that the folder of a run may contain.
-ResultNames result_files();
+files::ResultNames result_files();
 
 /// How much of a run is kept.
 enum class Keep {
@@ -77,7 +62,8 @@ struct ResultOptions {
   /// Called with each frame of the video, until it returns false.
   std::function<bool(const cv::Mat3b& sheet)> show = {};
   /// Writes additional files to the folder, after all others and before the commit.
-  std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
+  std::function<void(const std::filesystem::path& folder, const scoring::Metrics& metrics)>
+      add_page = {};
 };
 
 /// The first frames of a run with events stay in memory, about 0.2 MB each, until their events are
@@ -88,21 +74,21 @@ class Result {
  public:
   /// \param run whose frames will be added.
   /// \throws OutputError for a target that cannot be written or contains other files.
-  Result(const std::filesystem::path& target, const RunInfo& run, cv::Size image_px,
+  Result(const std::filesystem::path& target, const recording::RunInfo& run, cv::Size image_px,
          const ResultOptions& options);
 
   /// Scores the frame and writes its rows. Of a frame beyond `kMostHeld`, only numbers are kept.
   /// \param image may be empty if no video is made or shown.
   /// \throws OutputError; std::invalid_argument as `Scorer::add`.
-  void add(const FrameRecord& frame, const cv::Mat3b& image);
+  void add(const recording::FrameRecord& frame, const cv::Mat3b& image);
 
   /// Writes the files that depend on all frames. The folder appears when the output is committed.
   /// \param world the simulation's warnings; absent without a simulation. \throws OutputError
-  Metrics finish(const std::optional<sim::Warnings>& world);
+  scoring::Metrics finish(const std::optional<sim::Warnings>& world);
 
   int frames() const { return scorer_.frames(); }
   /// All warnings of the run, after `finish`.
-  const std::vector<Warned>& warned() const { return warned_; }
+  const std::vector<recording::Warned>& warned() const { return warned_; }
 
   /// Copies the truth of the same frames from the folder of an earlier run. Before `finish`, if
   /// there are events. \throws as `copy_bytes`
@@ -112,26 +98,24 @@ class Result {
   /// On another file system as a copy. \throws as `copy_bytes`
   void share_truth(const Result& other);
 
-  Output& output() { return folder_; }
+  files::Output& output() { return folder_; }
 
  private:
   void write_events_file();
 
-  Output folder_;
-  Keep keep_;
+  files::Output folder_;
+  ResultOptions options_;
   cv::Size image_px_;
-  Scorer scorer_;
-  std::vector<Warned> warned_;
-  std::optional<FramesWriter> rows_;
-  std::optional<RecordingWriter> writer_;
-  FramePainter painter_;
+  scoring::Scorer scorer_;
+  std::vector<recording::Warned> warned_;
+  std::optional<scoring::FramesWriter> rows_;
+  std::optional<recording::RecordingWriter> writer_;
+  recording::RunInfo run_;
+  PanelSheet sheet_;
   std::optional<Video> video_;
-  decltype(ResultOptions::show) show_;
-  std::optional<EventFinder> events_;
-  std::vector<FrameRecord> held_;  ///< the first frames, if there are events
-  const FramePictures* kept_;
+  std::optional<scoring::EventFinder> events_;
+  std::vector<recording::FrameRecord> held_;  ///< the first frames, if there are events
   std::optional<PicturesWriter> own_pictures_;
-  decltype(ResultOptions::add_page) add_page_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -7,17 +7,17 @@
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/score_rebels.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 namespace {
 
 /// A unit follows the first of successive figures that share it.
-std::string line(std::string_view head, const Metrics& metrics, bool with_undefined,
+std::string line(std::string_view head, const scoring::Metrics& metrics, bool with_undefined,
                  std::initializer_list<std::string_view> keys) {
   std::string text = fmt::format("  {:<8}", head);
   std::string_view gap = " ", unit;
   for (const std::string_view key : keys) {
-    const Metric& metric = bench::metric(key);
-    const std::optional<double> figure = value(metrics, metric.key);
+    const scoring::Metric& metric = scoring::metric(key);
+    const std::optional<double> figure = scoring::value(metrics, metric.key);
     if (!figure && !with_undefined) continue;
     text += fmt::format("{}{} {}", gap, metric.label, metric.number(figure));
     if (figure && metric.scale.unit != unit) text += fmt::format(" {}", metric.scale.unit);
@@ -33,23 +33,23 @@ std::string remark(std::string_view text) {
 }
 
 /// The lines of figures that need a truth.
-std::string scores(const Metrics& metrics) {
+std::string scores(const scoring::Metrics& metrics) {
   std::string text;
-  if (!value(metrics, kF1)) {
+  if (!scoring::value(metrics, scoring::kF1)) {
     text += line("rebels", metrics, true, {"rebel.false_corners_per_frame"});
     text += remark("nothing to find: no corner moves by itself for long enough");
   } else {
     text += line("rebels", metrics, true,
-                 {"rebel.precision", "rebel.recall", kF1, "rebel.f1_clear", "rebel.f1_distinct",
-                  "rebel.recall_radial"});
+                 {"rebel.precision", "rebel.recall", scoring::kF1, "rebel.f1_clear",
+                  "rebel.f1_distinct", "rebel.recall_radial"});
   }
   constexpr double kPoor = 0.7, kMuch = 0.1;
-  if (value(metrics, kF1).value_or(1) < kPoor) {
+  if (scoring::value(metrics, scoring::kF1).value_or(1) < kPoor) {
     text += line("F1 lost", metrics, true,
                  {"rebel.f1_lost_radial", "rebel.f1_lost_outline", "rebel.f1_lost_first_seen",
                   "rebel.f1_lost_tracked"});
   }
-  if (value(metrics, "rebel.f1_lost_radial").value_or(0) > kMuch) {
+  if (scoring::value(metrics, "rebel.f1_lost_radial").value_or(0) > kMuch) {
     text += remark(
         "radial: along the line of sight, where an image moves as a static point's image may "
         "(filter/MODEL.md#limits)");
@@ -57,13 +57,13 @@ std::string scores(const Metrics& metrics) {
   text += line("objects", metrics, true,
                {"truth.rebel_objects", "rebel.object_recall", "rebel.latency_frames_median",
                 "rebel.false_objects_per_100_frames"});
-  if (value(metrics, "rebel.object_recall").value_or(0) -
-          value(metrics, "rebel.recall").value_or(0) >
+  if (scoring::value(metrics, "rebel.object_recall").value_or(0) -
+          scoring::value(metrics, "rebel.recall").value_or(0) >
       0.5) {
     text +=
         remark(fmt::format("a mover is found by {} of its corners in one frame; recall counts all "
                            "of its corners in all frames",
-                           kCornersToFind));
+                           scoring::kCornersToFind));
   }
   text += line("squares", metrics, true,
                {"square.precision_50", "square.recall_50", "square.recall_50_movers",
@@ -73,21 +73,23 @@ std::string scores(const Metrics& metrics) {
 
 }  // namespace
 
-std::string table(const Metrics& metrics) {
+std::string table(const scoring::Metrics& metrics) {
   std::string text;
-  if (!value(metrics, "truth.fixed_corners")) {  // no truth to score against
+  if (!scoring::value(metrics, "truth.fixed_corners")) {  // no truth to score against
     text += line("found", metrics, true,
                  {"dimension.corners_mean", "found.rebels_per_frame", "found.movers_per_frame"});
   } else {
     text += scores(metrics);
   }
 
-  if (value(metrics, "labels.frames")) {
+  if (scoring::value(metrics, "labels.frames")) {
     text += line("labels", metrics, true,
                  {"labels.frames", "labels.boxes", "labels.found", "labels.boxed_50",
                   "labels.rebels_off_per_frame", "labels.circles_off_per_100_frames"});
   }
-  const auto size = [&](const char* key) { return metric(key).number(value(metrics, key)); };
+  const auto size = [&](const char* key) {
+    return scoring::metric(key).number(scoring::value(metrics, key));
+  };
   text += fmt::format(
       "  size     {} items (edges, circles, squares) are kept; 5 frames have {} corners, 8 have "
       "{}, all {}\n",
@@ -100,4 +102,4 @@ std::string table(const Metrics& metrics) {
   return text;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

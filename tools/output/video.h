@@ -9,7 +9,7 @@
 
 #include "tools/files/output_file.h"
 
-namespace lcs::bench {
+namespace lcs::output {
 
 inline constexpr const char* kVideoFile = "video.mp4";
 
@@ -38,4 +38,4 @@ class Video {
 /// FLV, ASF and OGG. \return not opened for any other format.
 std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file);
 
-}  // namespace lcs::bench
+}  // namespace lcs::output

@@ -15,16 +15,12 @@
 namespace lcs::preview {
 namespace {
 
+constexpr int kJpegQuality = 85;
 constexpr double kStands_m = 1e-4;  // m, largest step of a static actor between frames
 
-std::string jpeg_of(const cv::Mat3b& image) {
-  constexpr int kQuality = 85;
-  return sim::encode_jpeg(image, kQuality);
-}
-
-Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
-               const std::vector<Look>& looks, std::size_t actor) {
-  Mover mover{.name = scenario.actors[actor].name, .object = survey.actors[actor]};
+PreviewMover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
+                      const std::vector<Look>& looks, std::size_t actor) {
+  PreviewMover mover{.name = scenario.actors[actor].name, .object = survey.actors[actor]};
   const auto id = static_cast<std::size_t>(mover.object);
   for (std::size_t k = 0; k < survey.snapshots.size(); ++k) {
     const Eigen::Vector2d here = survey.snapshots[k].T_WO[id].p.head<2>();
@@ -68,19 +64,19 @@ std::vector<std::string> what_is_wrong(const Preview& p) {
     const std::int64_t more = met.count - 1 - std::ssize(met.next);
     if (more > 0) lines.back() += fmt::format(" (and {} more times)", more);
   }
-  for (const Mover& mover : p.movers) {
+  for (const PreviewMover& mover : p.movers) {
     if (mover.looks > 0) continue;
     lines.push_back(fmt::format("actor '{}' is in none of the {} pictures that were looked at: {}",
                                 mover.name, p.looks.size(),
                                 sim::text_of(sim::Warning::actors_never_seen).remedy));
   }
-  const auto has_few = [](const auto& corners) { return corners.size() < bench::kFewCorners; };
+  const auto has_few = [](const auto& corners) { return corners.size() < recording::kFewCorners; };
   const auto few = std::ranges::count_if(p.corners_px, has_few);
   if (2 * few > std::ssize(p.corners_px)) {
     lines.push_back(
         fmt::format("fewer than {} corners are in {} of {} pictures: lower corners.threshold, or "
                     "give the scene more texture or light",
-                    bench::kFewCorners, few, p.corners_px.size()));
+                    recording::kFewCorners, few, p.corners_px.size()));
   }
   return lines;
 }
@@ -94,7 +90,8 @@ Preview preview(const scenario::Scenario& scenario, const std::function<void(int
     cv::Mat1b grey;
     cv::cvtColor(seen.image, grey, cv::COLOR_BGR2GRAY);
     p.corners_px.push_back(detector.detect(grey));
-    p.looks.push_back({seen.index, seen.image.size(), seen.objects, jpeg_of(seen.image)});
+    p.looks.push_back(
+        {seen.index, seen.image.size(), seen.objects, sim::encode_jpeg(seen.image, kJpegQuality)});
   };
   p.survey = sim::survey(looked_at(scenario), kLooks, on_look, on_frame);
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {

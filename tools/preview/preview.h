@@ -20,7 +20,7 @@ namespace lcs::preview {
 inline constexpr int kLooks = 13;
 
 /// An actor with its path.
-struct Mover {
+struct PreviewMover {
   std::string name;
   int object = 0;                           ///< as FrameTruth::object
   std::vector<Eigen::Vector2d> way_m = {};  ///< in W, m, one point per frame
@@ -49,7 +49,7 @@ struct Preview {
   sim::Survey survey;
   std::vector<Look> looks;
   std::vector<std::vector<Eigen::Vector2f>> corners_px;  ///< of each look
-  std::vector<Mover> movers;                             ///< by the scenario's actors
+  std::vector<PreviewMover> movers;                      ///< by the scenario's actors
   std::vector<std::string> wrong;  ///< problems with remedies, those that a run rejects first
 };
 

@@ -107,6 +107,11 @@ class PreviewPage : public report::TextPage {
     Vector2d at(const Vector2d& p) const {
       return scale * Vector2d(p.x() - box.min().x(), box.max().y() - p.y());
     }
+    std::string points(const std::vector<Vector2d>& all) const {
+      std::string text;
+      for (const Vector2d& p : all) text += fmt::format("{:.1f},{:.1f} ", at(p).x(), at(p).y());
+      return text;
+    }
   };
 
   /// All paths with a margin.
@@ -114,7 +119,7 @@ class PreviewPage : public report::TextPage {
     constexpr double kAround_m = 2.5, kWidth_px = 1100, kHeight_px = 640;
     Window w;
     for (const Vector2d& p : survey_.rover_m) w.box.extend(p);
-    for (const Mover& mover : preview_.movers) {
+    for (const PreviewMover& mover : preview_.movers) {
       for (const Vector2d& p : mover.way_m) w.box.extend(p);
     }
     w.box.min().array() -= kAround_m;
@@ -126,12 +131,7 @@ class PreviewPage : public report::TextPage {
 
   void polygon(const Window& w, const std::vector<Vector2d>& points, std::string_view classes,
                const Html& more = {}, std::string_view title = "") {
-    add("<polygon class=\"{}\" {} points=\"", classes, more);
-    for (const Vector2d& p : points) {
-      const Vector2d at = w.at(p);
-      add("{:.1f},{:.1f} ", at.x(), at.y());
-    }
-    add("\">");
+    add("<polygon class=\"{}\" {} points=\"{}\">", classes, more, w.points(points));
     if (!title.empty()) add("<title>{}</title>", title);
     add("</polygon>\n");
   }
@@ -144,17 +144,6 @@ class PreviewPage : public report::TextPage {
   struct Labels {
     Eigen::AlignedBox2d room;  ///< the drawing's area
     std::vector<Eigen::AlignedBox2d> taken = {};
-
-    /// Reserves the place if it is free. \param width_px of a letter.
-    bool take(const Vector2d& at, const std::string& text, double height, double width_px) {
-      const Eigen::AlignedBox2d box(
-          at - Vector2d(0, height),
-          at + Vector2d(width_px * static_cast<double>(text.size()), 0.25 * height));
-      const auto meets = [&](const auto& other) { return other.intersects(box); };
-      if (!room.contains(box) || std::ranges::any_of(taken, meets)) return false;
-      taken.push_back(box);
-      return true;
-    }
   };
 
   /// Places the text at the first free side of a box, or nowhere. Bold names try all sides, other
@@ -176,7 +165,12 @@ class PreviewPage : public report::TextPage {
                                          {right, above - 1.3 * height},
                                          {right, below + 1.3 * height}}};
     for (const Vector2d& at : sides | std::views::take(bold ? 8 : 2)) {
-      if (!labels.take(at, text, height, letter)) continue;
+      const Eigen::AlignedBox2d place(
+          at - Vector2d(0, height),
+          at + Vector2d(letter * static_cast<double>(text.size()), 0.25 * height));
+      const auto meets = [&](const auto& other) { return other.intersects(place); };
+      if (!labels.room.contains(place) || std::ranges::any_of(labels.taken, meets)) continue;
+      labels.taken.push_back(place);
       label(at, text,
             {fmt::format("style=\"font-size: {:.0f}px; font-weight: {}\"", height,
                          bold ? 700 : 400)});
@@ -222,12 +216,7 @@ class PreviewPage : public report::TextPage {
   }
 
   void way(const Window& w, const std::vector<Vector2d>& points, int colour) {
-    add("<polyline class=\"c{}\" points=\"", colour);
-    for (const Vector2d& p : points) {
-      const Vector2d at = w.at(p);
-      add("{:.1f},{:.1f} ", at.x(), at.y());
-    }
-    add("\"/>\n");
+    add("<polyline class=\"c{}\" points=\"{}\"/>\n", colour, w.points(points));
     for (const Mark& mark : marks_of(w, points)) {
       add("<circle class=\"c{}\" r=\"3\" fill=\"var(--panel)\" stroke-width=\"2\" cx=\"{:.1f}\" "
           "cy=\"{:.1f}\"/>\n",
@@ -245,7 +234,7 @@ class PreviewPage : public report::TextPage {
     };
     std::vector<const std::vector<Vector2d>*> ways{&survey_.rover_m};
     name(w.at(survey_.rover_m.front()), "rover", true);
-    for (const Mover& mover : preview_.movers) {
+    for (const PreviewMover& mover : preview_.movers) {
       name(w.at(mover.way_m.front()), mover.name, true);
       ways.push_back(&mover.way_m);
     }
@@ -286,7 +275,7 @@ class PreviewPage : public report::TextPage {
     std::ranges::stable_sort(prints, {}, &sim::Footprint::high_m);
     for (const sim::Footprint* print : prints) {
       if (print->object < 0) continue;
-      const auto mover = std::ranges::find(preview_.movers, print->object, &Mover::object);
+      const auto mover = std::ranges::find(preview_.movers, print->object, &PreviewMover::object);
       const std::string name =
           print->object == 0 ? ""
                              : survey_.objects[static_cast<std::size_t>(print->object - 1)].name;
@@ -331,7 +320,7 @@ class PreviewPage : public report::TextPage {
         "class=\"scroll\"><table><thead><tr><th>actor</th><th>moves</th><th>from</th><th>to</th>"
         "<th>nearest to the rover</th><th>in view</th></tr></thead><tbody>\n");
     for (std::size_t i = 0; i < preview_.movers.size(); ++i) {
-      const Mover& mover = preview_.movers[i];
+      const PreviewMover& mover = preview_.movers[i];
       const Vector2d &from = mover.way_m.front(), &to = mover.way_m.back();
       add("<tr><td><i class=\"c{}\"></i>{}</td><td>{}</td><td>({:.2f}, {:.2f}) m</td><td>({:.2f}, "
           "{:.2f}) m</td><td>{:.2f} m at {:.1f} s</td><td>{} of {} pictures</td></tr>\n",
@@ -350,7 +339,7 @@ class PreviewPage : public report::TextPage {
     add("<figure><svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"frame {2}\">\n<image "
         "width=\"{0}\" height=\"{1}\" href=\"data:image/jpeg;base64,{3}\"/>\n<path "
         "class=\"corners\" stroke-width=\"{4:.1f}\" d=\"",
-        look.image_px.width, look.image_px.height, look.index, bench::base64(look.jpeg),
+        look.image_px.width, look.image_px.height, look.index, scoring::base64(look.jpeg),
         2.5 * line);
     for (const Eigen::Vector2f& p : preview_.corners_px[which]) {
       add("M{:.0f} {:.0f}h0", p.x() + 0.5, p.y() + 0.5);
@@ -358,7 +347,7 @@ class PreviewPage : public report::TextPage {
     add("\"/>\n");
     Labels labels{{Vector2d::Zero(), Vector2d(look.image_px.width, look.image_px.height)}};
     for (const sim::ObjectTruth& object : look.objects) {
-      const auto mover = std::ranges::find(preview_.movers, object.object, &Mover::object);
+      const auto mover = std::ranges::find(preview_.movers, object.object, &PreviewMover::object);
       if (mover == preview_.movers.end()) continue;
       const auto place = static_cast<std::size_t>(mover - preview_.movers.begin());
       add("<rect class=\"c{}\" stroke-width=\"{:.1f}\" x=\"{}\" y=\"{}\" width=\"{}\" "

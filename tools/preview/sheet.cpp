@@ -19,13 +19,13 @@ namespace lcs::preview {
 namespace {
 
 using worlds::Body;
-using worlds::Box;
 using worlds::Part;
+using worlds::RoverPath;
 using worlds::Stand;
+using worlds::towards;
+using worlds::TurnedBox;
 using worlds::Vector2d;
 using worlds::Vector3d;
-using worlds::Way;
-using worlds::towards;
 using worlds::way_of;
 
 constexpr std::array<std::pair<int, int>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
@@ -59,41 +59,33 @@ void paint_shot(const Shot& shot, cv::Mat3b tile) {
   write_on(inside, fmt::format("frame {}", shot.frame), {6, size.height - 8});
 }
 
+/// Puts the place of a part or body into its box.
+TurnedBox at_place(TurnedBox box, const Vector3d& position_m, const Eigen::Quaterniond& rotation) {
+  const Vector2d ahead = (rotation * Vector3d::UnitX()).head<2>();
+  box.centre_m = position_m.head<2>();
+  box.heading_rad = std::atan2(ahead.y(), ahead.x());
+  return box;
+}
+
 /// Static parts of a world, in plan view.
-std::vector<Box> walls_of(const worlds::World& world) {
-  std::vector<Box> boxes;
+std::vector<TurnedBox> walls_of(const worlds::DrawnWorld& world) {
+  std::vector<TurnedBox> boxes;
   for (const Part& part : world.setting) {
     if (part.is_solid) continue;
     Part own = part;
     own.position_m.setZero();
     own.rotation.setIdentity();
-    Box box = bounds(world, {own});
+    const TurnedBox box = bounds(world, {own});
     const double foot = box.foot_m + part.position_m.z();
     if (foot > 1.2 || box.head_m - box.foot_m < 0.2) continue;  // ceilings and floor marks
-    const Vector2d ahead = (part.rotation * Vector3d::UnitX()).head<2>();
-    box.centre_m = part.position_m.head<2>();
-    box.heading_rad = std::atan2(ahead.y(), ahead.x());
-    boxes.push_back(box);
+    boxes.push_back(at_place(box, part.position_m, part.rotation));
   }
   return boxes;
 }
 
-Box box_of(const worlds::World& world, const Body& body) {
-  Box box = bounds(world, body.parts);
-  const Vector2d ahead = (body.rotation * Vector3d::UnitX()).head<2>();
-  box.centre_m = body.position_m.head<2>();
-  box.heading_rad = std::atan2(ahead.y(), ahead.x());
-  return box;
-}
-
-const scenario::Actor* actor_of(const worlds::World& world, const Body& body) {
-  const auto& actors = world.scenario.actors;
-  const auto found = std::ranges::find(actors, body.name, &scenario::Actor::body);
-  return found == actors.end() ? nullptr : &*found;
-}
-
 /// Positions of a mover in each frame.
-std::vector<Vector2d> path_of(const scenario::Actor& actor, const Box& at_rest, const Way& way) {
+std::vector<Vector2d> path_of(const scenario::Actor& actor, const TurnedBox& at_rest,
+                              const RoverPath& way) {
   std::vector<Vector2d> path;
   for (const Stand& stand : way.frames) {
     path.push_back(sim::pose_on(actor.trajectory, {at_rest.centre_m, at_rest.heading_rad},
@@ -117,33 +109,33 @@ void paint_scale(cv::Mat3b& tile, double pixels_per_m) {
 
 }  // namespace
 
-cv::Mat3b plan(const worlds::World& world) {
+cv::Mat3b plan(const worlds::DrawnWorld& world) {
   constexpr double kMargin_px = 8, kAhead_m = 6, kAround_m = 2;
-  const Way way = way_of(world.scenario);
+  const RoverPath way = way_of(world.scenario);
   const scenario::Camera& camera = world.scenario.camera;
-  const std::vector<Box> walls = walls_of(world);
+  const std::vector<TurnedBox> walls = walls_of(world);
 
   Eigen::AlignedBox2d all, shown;
-  const auto add_box = [&](const Box& box) {
+  const auto add_box = [&](const TurnedBox& box) {
     for (const auto& [x, y] : kCorners) all.extend(point_of(box, x, y, 0).head<2>());
   };
-  for (const Box& wall : walls) add_box(wall);
+  for (const TurnedBox& wall : walls) add_box(wall);
   for (const Stand& stand : way.frames) {
     shown.extend(stand.at_m);
     shown.extend(stand.at_m + kAhead_m * towards(stand.heading_rad));
   }
   struct Standing {
-    Box box;
+    TurnedBox box;
     std::vector<Vector2d> path;  // of a mover
   };
+  const std::vector<scenario::Actor>& actors = world.scenario.actors;
   std::vector<Standing> things;
   for (const Body& body : world.bodies) {
     Standing& thing = things.emplace_back();
-    thing.box = box_of(world, body);
+    thing.box = at_place(bounds(world, body.parts), body.position_m, body.rotation);
     add_box(thing.box);
-    if (const scenario::Actor* actor = actor_of(world, body)) {
-      thing.path = path_of(*actor, thing.box, way);
-    }
+    const auto actor = std::ranges::find(actors, body.name, &scenario::Actor::body);
+    if (actor != actors.end()) thing.path = path_of(*actor, thing.box, way);
     for (const Vector2d& point : thing.path) shown.extend(point);
   }
   all.extend(shown);
@@ -159,14 +151,15 @@ cv::Mat3b plan(const worlds::World& world) {
     return cv::Point(cvRound(kWidth / 2.0 + scale * (p.x() - middle.x())),
                      cvRound(kHeight / 2.0 - scale * (p.y() - middle.y())));
   };
-  const auto outline = [&](const Box& box) {
+  const auto outline = [&](const TurnedBox& box) {
     std::vector<cv::Point> corners;
     for (const auto& [x, y] : kCorners) {
       corners.push_back(pixel(point_of(box, x, y, 0).head<2>()));
     }
     return corners;
   };
-  for (const Box& wall : walls) cv::polylines(tile, outline(wall), true, kWall, 1, cv::LINE_AA);
+  for (const TurnedBox& wall : walls)
+    cv::polylines(tile, outline(wall), true, kWall, 1, cv::LINE_AA);
   for (const Standing& thing : things) {
     if (thing.path.empty()) cv::fillConvexPoly(tile, outline(thing.box), kThing);
     cv::polylines(tile, outline(thing.box), true, thing.path.empty() ? kWall : kMoves, 1,

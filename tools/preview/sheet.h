@@ -14,7 +14,7 @@ namespace lcs::preview {
 
 /// Plan view from the commands: static things, the rover's path with its first and last field of
 /// view (blue), and the movers' paths (magenta).
-cv::Mat3b plan(const worlds::World& world);
+cv::Mat3b plan(const worlds::DrawnWorld& world);
 
 /// A frame of the camera or of a recording.
 struct Shot {

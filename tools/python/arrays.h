@@ -35,20 +35,17 @@ py::array view(const std::vector<py::ssize_t>& shape, const Number* data, py::ha
 }
 
 /// A view of a picture, H x W or H x W x C, without a copy. \param owner as above.
-template <class Number, int Channels = 1>
-py::array view(const cv::Mat_<cv::Vec<Number, Channels>>& picture, py::handle owner) {
-  const py::ssize_t row = static_cast<py::ssize_t>(picture.step[0]);
-  constexpr py::ssize_t kNumber = sizeof(Number);
-  return read_only(py::array_t<Number>(
-      {py::ssize_t{picture.rows}, py::ssize_t{picture.cols}, py::ssize_t{Channels}},
-      {row, Channels * kNumber, kNumber}, reinterpret_cast<const Number*>(picture.data), owner));
-}
-template <class Number>
-py::array view(const cv::Mat_<Number>& picture, py::handle owner) {
-  return read_only(
-      py::array_t<Number>({py::ssize_t{picture.rows}, py::ssize_t{picture.cols}},
-                          {static_cast<py::ssize_t>(picture.step[0]), py::ssize_t{sizeof(Number)}},
-                          reinterpret_cast<const Number*>(picture.data), owner));
+template <class Pixel>
+py::array view(const cv::Mat_<Pixel>& picture, py::handle owner) {
+  using Number = typename cv::DataType<Pixel>::channel_type;
+  std::vector<py::ssize_t> shape{picture.rows, picture.cols},
+      strides{static_cast<py::ssize_t>(picture.step[0]), sizeof(Pixel)};
+  if (picture.channels() > 1) {
+    shape.push_back(picture.channels());
+    strides.push_back(sizeof(Number));
+  }
+  const auto* const data = reinterpret_cast<const Number*>(picture.data);
+  return read_only(py::array_t<Number>(shape, strides, data, owner));
 }
 
 /// Copies a matrix to an array in row-major order; a column vector becomes one-dimensional.
@@ -60,6 +57,19 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   if (Derived::ColsAtCompileTime != 1) shape.push_back(matrix.cols());
   py::array_t<Scalar> array(shape);
   Eigen::Map<Rows>(array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
+  return read_only(array);
+}
+
+/// A float64 array with a row for each item. \param Size of a row. \param row_of gives its numbers,
+/// a matrix row-major.
+template <py::ssize_t... Size, class Items, class RowOf>
+py::array table(const Items& items, const RowOf& row_of) {
+  py::array_t<double> array({std::ssize(items), Size...});
+  double* to = array.mutable_data();
+  for (const auto& item : items) {
+    const auto row = row_of(item);
+    for (const double number : row.template reshaped<Eigen::RowMajor>()) *to++ = number;
+  }
   return read_only(array);
 }
 
@@ -112,7 +122,7 @@ class RowFormat {
 template <class Item, class Visit>
 void all_fields(Item& item, const Visit& visit) {
   if constexpr (requires { item.rebel; }) visit("rebel", item.rebel);
-  bench::fields(item, visit);
+  recording::fields(item, visit);
 }
 
 /// A structured array with one row per item.

@@ -1,5 +1,4 @@
-#include "tools/python/bench.h"
-
+// The commands of the program as Python functions.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -23,6 +22,7 @@
 #include "tools/python/guard.h"
 #include "tools/python/keywords.h"
 #include "tools/python/scenario.h"
+#include "tools/python/type.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
@@ -30,12 +30,11 @@
 namespace lcs::python {
 namespace {
 
-namespace py = pybind11;
 namespace fs = std::filesystem;
 
 using namespace py::literals;
 
-using Texts = std::vector<std::string>;
+using app::Texts;
 
 /// Calls a Python function, if there is one, with the numbers of finished and of all units.
 class Counter : public app::Progress {
@@ -117,15 +116,15 @@ auto carry_out(const Work& work) {
   return work();
 }
 
-py::dict dict_of(const bench::Metrics& metrics) {
+py::dict dict_of(const scoring::Metrics& metrics) {
   py::dict figures;
   for (const auto& [name, figure] : metrics) figures[name.c_str()] = figure;
   return figures;
 }
 
-py::list list_of(const std::vector<bench::JudgedCriterion>& criteria) {
+py::list list_of(const std::vector<scoring::JudgedCriterion>& criteria) {
   py::list list;
-  for (const bench::JudgedCriterion& one : criteria) {
+  for (const scoring::JudgedCriterion& one : criteria) {
     list.append(py::dict("metric"_a = one.metric, "min"_a = one.min, "max"_a = one.max,
                          "value"_a = one.value, "required"_a = one.required, "met"_a = one.met,
                          "over"_a = one.over, "message"_a = one.message));
@@ -152,7 +151,7 @@ void add_runs(const suite::SuiteResult& suite, const fs::path& folder, py::list&
 void add_means(const suite::SuiteResult& suite, py::list& rows) {
   const bool of_worlds = suite::is_of_worlds(suite);
   for (const std::string& group : suite::groups_of(suite)) {
-    for (const std::string_view metric : bench::keys_in(bench::Table::suite)) {
+    for (const std::string_view metric : scoring::keys_in(scoring::Table::suite)) {
       const std::vector<double> figures = suite::figures_of_group(suite, group, metric);
       if (figures.empty()) continue;
       const suite::Interval mean = suite::interval_of(figures);
@@ -175,7 +174,7 @@ py::list list_of(const std::vector<suite::Difference>& differences, const char* 
   return list;
 }
 
-py::dict dict_of(const suite::Comparison& comparison, const suite::Verdict& verdict) {
+py::dict dict_of(const suite::Comparison& comparison, const suite::SuiteVerdict& verdict) {
   return py::dict("verdict"_a = verdict.line, "regressed"_a = comparison.has_regressed(),
                   "means"_a = list_of(comparison.groups, "group"),
                   "scenarios"_a = list_of(comparison.differences, "scenario"),
@@ -313,10 +312,7 @@ Raises ValueError for an unknown family, naming the known ones.)");
       [](const std::string& split, int count, const std::string& family, int jobs) {
         PythonCaller caller;
         const std::vector<worlds::Kept> chosen = app::chosen_worlds({split, count, family}, "");
-        carry_out([&] { app::draw_worlds(chosen, app::jobs_at_once(jobs), caller); });
-        std::vector<fs::path> files;
-        for (const worlds::Kept& one : chosen) files.push_back(one.file);
-        return files;
+        return carry_out([&] { return app::draw_worlds(chosen, app::jobs_at_once(jobs), caller); });
       },
       "split"_a, "count"_a = 60, py::kw_only(), "family"_a = "", "jobs"_a = 0,
       R"(The scenario files of the first worlds of a split: train, validate or test, by which nothing may be

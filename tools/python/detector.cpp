@@ -35,7 +35,7 @@ class Detector {
     result->detector = {spec_.name, spec_.detector.layered, detector_->gives_circles()};
     result->step_time = detector_->step_time();
     result->wants_signatures = detector_->wants_signatures();
-    const bench::FrameRecord& record = frame.seen.record;
+    const recording::FrameRecord& record = frame.seen.record;
     const std::vector<Signature> none;
     result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
       return detector_->step({frame.seen.image, frame.seen.grey, record.corners_px, record.motion,
@@ -50,7 +50,7 @@ class Detector {
     const py::gil_scoped_release others_may_run;
     const std::lock_guard lock(mutex_);
     detector_->finish();
-    return detector_->told();
+    return detector_->remarks();
   }
 
   const std::string& name() const { return spec_.name; }
@@ -78,10 +78,9 @@ void bind_detector(py::module_& module) {
            }),
            py::arg("scenario"), py::arg("name") = "", py::kw_only(), py::arg("command") = "",
            py::arg("timeout") = app::DetectorChoice{}.timeout_s,
-           "name: of the detector; lcs if not given. With command: its name in results.\n"
-           "command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, "
-           "s.\n"
-           "Raises ValueError for an unknown name, Error for a program that does not start.")
+           R"(name: of the detector; lcs if not given. With command: its name in results.
+command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, s.
+Raises ValueError for an unknown name, Error for a program that does not start.)")
       .def(
           "step", [](Detector& detector, const Frame& frame) { return detector.step(frame); },
           py::arg("frame"),

@@ -11,7 +11,6 @@
 #include "tools/python/arrays.h"
 #include "tools/python/scenario.h"
 #include "tools/python/type.h"
-#include "tools/python/typed.h"
 #include "tools/recording/box.h"
 
 namespace lcs::python {
@@ -44,24 +43,19 @@ PictureFilter of_camera(const Camera& camera, const std::string& preset, const S
 
 std::shared_ptr<Result> step(PictureFilter& own, const ArrayLike& corners, const EgoMotion& motion,
                              const OptionalArray& signatures, const OptionalArray& picture) {
-  AnyFilter& filter = own.filter;
   const std::vector<Eigen::Vector2f> corners_px = points_of(corners, "corners");
   GapView* view = nullptr;
   if (!picture.is_none()) {
     own.pictures.show(grey_of(picture));
     view = &own.pictures;
   }
+  std::optional<std::vector<Signature>> given;
+  if (!signatures.is_none()) given = signatures_of(signatures);
   auto result = std::make_shared<Result>();
-  if (signatures.is_none()) {
-    result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
-      return filter.step(corners_px, motion, view);
-    });
-  } else {
-    const std::vector<Signature> given = signatures_of(signatures);
-    result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
-      return filter.step(corners_px, given, motion, view);
-    });
-  }
+  result->said = bench::timed(result->step_ms, [&]() -> const FrameResult& {
+    return given ? own.filter.step(corners_px, *given, motion, view)
+                 : own.filter.step(corners_px, motion, view);
+  });
   return result;
 }
 
@@ -90,27 +84,13 @@ py::array both(const std::vector<Item>& normal, const std::vector<Item>& rebel) 
 }
 
 py::array boxes(const Result& result) {
-  const std::vector<Square>& squares = result.said.layers.squares;
-  py::array_t<double> array({std::ssize(squares), py::ssize_t{4}});
-  double* to = array.mutable_data();
-  for (const Square& square : squares) {
-    Eigen::Map<Eigen::Vector4d>{to} = bench::edges_of(square);
-    to += 4;
-  }
-  return read_only(array);
+  return table<4>(result.said.layers.squares, recording::edges_of);
 }
 
 py::list outlines(const Result& result) {
   py::list all;
   for (const Square& square : result.said.layers.squares) {
-    const auto vertices = square.outline.vertices();
-    py::array_t<double> array({std::ssize(vertices), py::ssize_t{2}});
-    double* to = array.mutable_data();
-    for (const Vec2& vertex : vertices) {
-      *to++ = vertex.x();
-      *to++ = vertex.y();
-    }
-    all.append(read_only(array));
+    all.append(table<2>(square.outline.vertices(), std::identity()));
   }
   return all;
 }
@@ -179,17 +159,13 @@ void bind_filter(py::module_& module) {
            "Raises Error for an unknown preset, key or value, ValueError for an impossible camera.")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
            py::kw_only(), py::arg("picture") = py::none(),
-           "Processes the next frame.\n"
-           "\n"
-           "corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 "
-           "uint8;\n"
-           "picture: height x width uint8, grey, without distortion. Bodies that approach at "
-           "constant speed are\n"
-           "found only with pictures, and only by the preset default.\n"
-           "Raises TypeError or ValueError for arrays of another type or shape, and then ignores "
-           "the frame.\n"
-           "Numbers that are not finite or out of range never raise: they are left out, see "
-           "diagnostics.")
+           R"(Processes the next frame.
+
+corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 uint8;
+picture: height x width uint8, grey, without distortion. Bodies that approach at constant speed are
+found only with pictures, and only by the preset default.
+Raises TypeError or ValueError for arrays of another type or shape, and then ignores the frame.
+Numbers that are not finite or out of range never raise: they are left out, see diagnostics.)")
       .def_property_readonly(
           "diagnostics", [](const PictureFilter& f) { return f.filter.diagnostics().lines(); },
           "Problems of the data so far, a line for each kind.");

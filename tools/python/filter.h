@@ -2,8 +2,6 @@
 /// The Python classes of the filter and of its result for a frame.
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include "filter/types/frame_result.h"
 #include "tools/recording/recording.h"
 
@@ -13,12 +11,10 @@ namespace lcs::python {
 struct Result {
   FrameResult said;
   double step_ms = 0;  ///< duration of the detector's step
-  bench::DetectorInfo detector = {};
-  double bench::FrameTimes::*step_time = &bench::FrameTimes::filter_ms;  ///< null: none
+  recording::DetectorInfo detector = {};
+  double recording::FrameTimes::*step_time = &recording::FrameTimes::filter_ms;  ///< null: none
   bool wants_signatures = true;
-  bench::SquareMasks masks = {};
+  recording::SquareMasks masks = {};
 };
-
-void bind_filter(pybind11::module_& module);
 
 }  // namespace lcs::python

@@ -13,7 +13,6 @@
 #include "tools/python/arrays.h"
 #include "tools/python/guard.h"
 #include "tools/python/type.h"
-#include "tools/python/typed.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 
@@ -149,14 +148,7 @@ py::array signatures(const py::object& self) {
 }
 
 py::array corners(const Frame& frame) {
-  const auto& given = frame.seen.record.corners_px;
-  py::array_t<double> array({std::ssize(given), py::ssize_t{2}});
-  double* number = array.mutable_data();
-  for (const Eigen::Vector2f& corner : given) {
-    *number++ = corner.x();
-    *number++ = corner.y();
-  }
-  return read_only(array);
+  return table<2>(frame.seen.record.corners_px, std::identity());
 }
 
 double seconds(std::int64_t t_ns) {
@@ -169,19 +161,12 @@ double seconds(std::int64_t t_ns) {
 template <class Sample, class Put>
 py::array readings(const std::vector<Sample>& samples,
                    const std::vector<std::pair<const char*, int>>& fields, const Put& put) {
-  py::list columns, formats, offsets;
-  columns.append("t");
-  formats.append("f8");
-  offsets.append(0);
-  std::size_t size = sizeof(double);
+  py::list columns;
+  columns.append(py::make_tuple("t", "f8"));
   for (const auto& [name, numbers] : fields) {
-    columns.append(name);
-    formats.append(numbers == 1 ? "f8" : fmt::format("{}f8", numbers));
-    offsets.append(size);
-    size += numbers * sizeof(double);
+    columns.append(py::make_tuple(name, numbers == 1 ? "f8" : fmt::format("{}f8", numbers)));
   }
-  py::array array(py::dtype(columns, formats, offsets, static_cast<py::ssize_t>(size)),
-                  std::ssize(samples));
+  py::array array(py::dtype::from_args(columns), std::ssize(samples));
   auto* to = static_cast<double*>(array.mutable_data());
   for (const Sample& sample : samples) {
     *to++ = seconds(sample.t_ns);
@@ -292,23 +277,13 @@ py::array object_poses(const Truth& truth) {
   const sim::FrameTruth& exact = observation_of(truth).truth;
   const std::span poses(exact.now.T_WO.begin(),
                         exact.now.T_WO.end() - std::ssize(exact.limb_objects));
-  py::array_t<double> array({std::ssize(poses), py::ssize_t{4}, py::ssize_t{4}});
-  double* to = array.mutable_data();
-  for (const sim::Pose& pose : poses) {
-    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>{to} = matrix_of(pose);
-    to += 16;
-  }
-  return read_only(array);
+  return table<4, 4>(poses, [](const sim::Pose& pose) { return matrix_of(pose); });
 }
 
 py::array object_boxes(const Truth& truth) {
-  const auto& objects = truth.frame->seen.record.object_truth;
-  py::array_t<double> array({std::ssize(objects), py::ssize_t{4}});
-  double* to = array.mutable_data();
-  for (const sim::ObjectTruth& object : objects) {
-    for (const int edge : {object.left, object.top, object.right, object.bottom}) *to++ = edge;
-  }
-  return read_only(array);
+  return table<4>(truth.frame->seen.record.object_truth, [](const sim::ObjectTruth& object) {
+    return Eigen::Vector4d(object.left, object.top, object.right, object.bottom);
+  });
 }
 
 void bind_truth(py::module_& module) {
@@ -426,7 +401,7 @@ std::shared_ptr<Frame> Simulation::next() {
   {
     const py::gil_scoped_release others_may_run;
     const OneThread one_thread;
-    std::optional<bench::SeenFrame> seen = bench::see(*source_, corners_, true);
+    std::optional<bench::InputFrame> seen = bench::next_input_frame(*source_, corners_, true);
     is_over = !seen;
     if (seen) frame->seen = std::move(*seen);
   }
@@ -466,8 +441,8 @@ void bind_frame(py::module_& module) {
       .def_property_readonly(
           "warnings",
           [](const Simulation& s) {
-            const bench::RunInfo& run = s.run().info;
-            return bench::lines_of(bench::WarningWatch(run.truth).warned(run.warnings));
+            const recording::RunInfo& run = s.run().info;
+            return recording::lines_of(recording::WarningWatch(run.truth).warned(run.warnings));
           },
           "Problems so far, a line each: the rover or an actor ran into something, fell, or tipped "
           "over.");

@@ -17,13 +17,13 @@ namespace lcs::python {
 /// Data shared by all frames of a run.
 struct Run {
   std::shared_ptr<const Scenario> scenario;
-  bench::RunInfo info;  ///< with the warnings up to now
+  recording::RunInfo info;  ///< with the warnings up to now
 };
 
 /// A frame's sensor data and truth. Immutable, because NumPy arrays are views of it.
 struct Frame : std::enable_shared_from_this<Frame> {
   std::shared_ptr<const Run> run;
-  bench::SeenFrame seen;
+  bench::InputFrame seen;
   std::optional<sim::Observation> observation;  ///< absent for a recorded frame
 };
 
@@ -59,7 +59,5 @@ class Simulation {
   bench::SimulatedFrames* simulated_ = nullptr;  ///< `source_`, if it simulates
   std::thread::id thread_ = std::this_thread::get_id();
 };
-
-void bind_frame(pybind11::module_& module);
 
 }  // namespace lcs::python

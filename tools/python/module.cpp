@@ -5,10 +5,6 @@
 #include <opencv2/core.hpp>
 
 #include "scenarios/input/message.h"
-#include "tools/python/bench.h"
-#include "tools/python/filter.h"
-#include "tools/python/frame.h"
-#include "tools/python/scenario.h"
 #include "tools/python/type.h"
 #include "tools/recording/recording_fields.h"
 
@@ -66,13 +62,13 @@ PYBIND11_MODULE(_core, module) {
   module.attr("Error") = pybind11::handle(python::error_type);
   pybind11::register_exception_translator(python::translate);
   module.attr("__version__") = LCS_VERSION;
-  python::add_enumeration(module, "Verdict", "The verdict on a corner.", lcs::bench::kVerdicts);
+  python::add_enumeration(module, "Verdict", "The verdict on a corner.", lcs::recording::kVerdicts);
   python::add_enumeration(
       module, "Reason",
       "Which of the filter's rules settled a corner's verdict (filter/types/reason.h).",
-      lcs::bench::kReasonWords);
+      lcs::recording::kReasonWords);
   python::add_enumeration(module, "Label", "The truth of a corner (tools/scoring/SCORING.md).",
-                          lcs::bench::kLabels);
+                          lcs::recording::kLabels);
   python::bind_scenario(module);
   python::bind_frame(module);
   python::bind_filter(module);

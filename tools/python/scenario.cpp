@@ -12,7 +12,6 @@
 #include "tools/bench/detector.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
-#include "tools/python/typed.h"
 #include "tools/replay/playback.h"
 
 namespace lcs::python {
@@ -137,14 +136,12 @@ void bind_scenario(py::module_& module) {
       "A scenario to simulate, or a recording: a YAML file of the form in scenarios/README.md.")
       .def(py::init(&from_file), py::arg("file"), py::kw_only(), py::arg("set") = py::none(),
            py::arg("seed") = py::none(),
-           "Reads and checks the whole file.\n"
-           "\n"
-           "set: values that replace the file's, as in lcs run --set: {\"ego.speed\": \"0.7 "
-           "m/s\"}.\n"
-           "seed: replaces the file's.\n"
-           "Raises Error with file, line, problem and remedy. Warns of settings of the filter that "
-           "have no\n"
-           "effect.")
+           R"(Reads and checks the whole file.
+
+set: values that replace the file's, as in lcs run --set: {"ego.speed": "0.7 m/s"}.
+seed: replaces the file's.
+Raises Error with file, line, problem and remedy. Warns of settings of the filter that have no
+effect.)")
       .def_static("from_yaml", &from_yaml, py::arg("text"), py::kw_only(),
                   py::arg("file") = std::filesystem::path("scenario.yaml"),
                   py::arg("set") = py::none(), py::arg("seed") = py::none(),

@@ -32,6 +32,4 @@ std::vector<std::string> assignments_of(const pybind11::object& mapping,
 /// Issues a UserWarning for each line. \throws py::error_already_set if Python's filters raise it.
 void warn(const std::vector<std::string>& lines);
 
-void bind_scenario(pybind11::module_& module);
-
 }  // namespace lcs::python

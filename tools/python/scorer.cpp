@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "tools/bench/detector.h"
@@ -16,7 +15,6 @@
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/type.h"
-#include "tools/python/typed.h"
 #include "tools/recording/frame_detections.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
@@ -27,7 +25,7 @@ namespace {
 /// A user's detector's results for one frame.
 struct Detections {
   std::optional<std::vector<bool>> rebels;  ///< per corner; absent: no corner is a rebel
-  bench::FrameRecord boxes;                 ///< has only squares, masks and circles
+  recording::FrameRecord boxes;             ///< has only squares, masks and circles
   cv::Size masks_px;                        ///< size of the masks' picture
 };
 
@@ -79,7 +77,7 @@ std::vector<Id> ids_of(const py::object& ids, py::ssize_t count, const char* wha
   return numbers;
 }
 
-void add_boxes(const py::object& boxes, const py::object& ids, bench::FrameDetections& said) {
+void add_boxes(const py::object& boxes, const py::object& ids, recording::FrameDetections& said) {
   const Numbers table =
       boxes.is_none()
           ? Numbers(std::vector<py::ssize_t>{0, 4})
@@ -95,9 +93,11 @@ void add_boxes(const py::object& boxes, const py::object& ids, bench::FrameDetec
 }
 
 /// Adds masks, whose bounding boxes become the boxes. \return the size of the masks' picture.
-cv::Size add_masks(const py::object& masks, const py::object& ids, bench::FrameDetections& said) {
+cv::Size add_masks(const py::object& masks, const py::object& ids,
+                   recording::FrameDetections& said) {
   constexpr const char* kExpected = "M x H x W bool, which pixels each covers";
-  const py::array array = array_of(listed(masks, bench::kMostBoxes + 1), "masks", kExpected, "b");
+  const py::array array =
+      array_of(listed(masks, recording::kMostBoxes + 1), "masks", kExpected, "b");
   if (array.ndim() == 1 && array.size() == 0) {  // an empty list
     ids_of(ids, 0, "masks");
     return {};
@@ -107,12 +107,12 @@ cv::Size add_masks(const py::object& masks, const py::object& ids, bench::FrameD
   }
   const py::ssize_t height = array.shape(1), width = array.shape(2);
   const bool has_size = std::min(height, width) > 0 &&
-                        std::max(height, width) <= bench::kMostSide_px &&
-                        array.shape(0) <= static_cast<py::ssize_t>(bench::kMostBoxes);
+                        std::max(height, width) <= recording::kMostSide_px &&
+                        array.shape(0) <= static_cast<py::ssize_t>(recording::kMostBoxes);
   if (!has_size) {
     throw py::value_error(
         fmt::format("masks are {} of {} x {} pixels; give {} at the most, of the picture's size",
-                    array.shape(0), width, height, bench::kMostBoxes));
+                    array.shape(0), width, height, recording::kMostBoxes));
   }
   const cv::Size size_px(static_cast<int>(width), static_cast<int>(height));
   const std::vector<Id> numbers = ids_of(ids, array.shape(0), "masks");
@@ -128,7 +128,7 @@ cv::Size add_masks(const py::object& masks, const py::object& ids, bench::FrameD
   return size_px;
 }
 
-void add_circles(const py::object& circles, bench::FrameDetections& said) {
+void add_circles(const py::object& circles, recording::FrameDetections& said) {
   if (circles.is_none()) return;
   const Numbers table = table_of(circles, "circles", "K x 3 numbers, x, y and radius in pixels", 3);
   for (py::ssize_t i = 0; i < table.shape(0); ++i) {
@@ -146,7 +146,7 @@ Detections detections_of(const OptionalArray& rebels, const OptionalArray& boxes
   if (!masks.is_none() && !boxes.is_none()) {
     throw py::value_error("there are boxes and masks; give masks alone, whose boxes are known");
   }
-  bench::FrameDetections said(detections.boxes, std::nullopt);
+  recording::FrameDetections said(detections.boxes, std::nullopt);
   if (masks.is_none()) {
     add_boxes(boxes, ids, said);
   } else {
@@ -157,10 +157,10 @@ Detections detections_of(const OptionalArray& rebels, const OptionalArray& boxes
 }
 
 /// Adds the detections to a frame's record and checks them against the frame's camera.
-void note(const Detections& detections, const Frame& frame, bench::FrameRecord& record) {
+void note(const Detections& detections, const Frame& frame, recording::FrameRecord& record) {
   const auto& [layers, masks] = std::tie(detections.boxes.layers, detections.boxes.masks);
   add_or_refuse(fmt::format("frame {}", record.index), [&] {
-    bench::FrameDetections said(record, bench::intrinsics(frame.run->scenario->camera.pinhole));
+    recording::FrameDetections said(record, bench::intrinsics(frame.run->scenario->camera.pinhole));
     for (const Square& square : layers.squares) {
       if (const auto mask = masks.find(square.id); mask != masks.end()) {
         said.add_mask(square.id, mask->second, detections.masks_px);
@@ -182,11 +182,11 @@ class Scorer {
       const OptionalArray none{py::none()};
       return add(frame, py::cast(detections_of(OptionalArray(said), none, none, none, none)));
     }
-    const bench::DetectorInfo detector =
+    const recording::DetectorInfo detector =
         is_result ? said.cast<const Result&>().detector
-                  : bench::DetectorInfo{.name = "python", .layered = false};
+                  : recording::DetectorInfo{.name = "python", .layered = false};
     require_next(frame, detector);
-    bench::FrameRecord record = frame.seen.record;
+    recording::FrameRecord record = frame.seen.record;
     if (is_result) {
       const auto& result = said.cast<const Result&>();
       require_all_corners(frame, result.said.verdicts.size());
@@ -194,7 +194,7 @@ class Scorer {
         record.signatures = {};
         if (record.times) record.times->describe_ms = 0;
       }
-      bench::note(result.said, result.step_time, result.step_ms, record);
+      bench::store_result(result.said, result.step_time, result.step_ms, record);
       record.masks = result.masks;
     } else {
       const auto& detections = said.cast<const Detections&>();
@@ -207,7 +207,7 @@ class Scorer {
       }
     }
     if (!run_) {
-      bench::RunInfo info = frame.run->info;
+      recording::RunInfo info = frame.run->info;
       info.detector = detector;
       detector_ = detector.name;
       scorer_.emplace(info);
@@ -223,12 +223,12 @@ class Scorer {
     return figures;
   }
 
-  std::vector<std::string> warnings() { return bench::lines_of(scorer_->warned(world())); }
+  std::vector<std::string> warnings() { return recording::lines_of(scorer_->warned(world())); }
 
  private:
   std::optional<sim::Warnings> world() const { return run_ ? run_->info.warnings : std::nullopt; }
 
-  void require_next(const Frame& frame, const bench::DetectorInfo& detector) const {
+  void require_next(const Frame& frame, const recording::DetectorInfo& detector) const {
     if (run_ && run_ != frame.run) {
       throw py::value_error("this frame is of another run; give each run a Scorer of its own");
     }
@@ -247,7 +247,7 @@ class Scorer {
   }
 
   static void require_all_corners(const Frame& frame, std::size_t verdicts) {
-    const bench::FrameRecord& record = frame.seen.record;
+    const recording::FrameRecord& record = frame.seen.record;
     if (verdicts == record.corners_px.size()) return;
     throw py::value_error(fmt::format(
         "there are verdicts on {} corners, and frame {} has {}; give one for each of frame.corners",
@@ -256,7 +256,7 @@ class Scorer {
 
   std::shared_ptr<const Run> run_;  ///< null until a frame is added
   std::string detector_;
-  std::optional<bench::Scorer> scorer_{std::in_place, bench::RunInfo{}};
+  std::optional<scoring::Scorer> scorer_{std::in_place, recording::RunInfo{}};
 };
 
 }  // namespace

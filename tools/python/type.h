@@ -1,9 +1,13 @@
 /// \file
-/// Common properties of the module's classes. Every object holds a value from its creation, since
-/// only a call of its class or C++ code can create it.
+/// Common properties of the module's classes and functions. Every object holds a value from its
+/// creation, since only a call of its class or C++ code can create it.
 #pragma once
 
 #include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace lcs::python {
 
@@ -25,9 +29,13 @@ py::class_<T, Options...> class_of(py::module_& module, const char* name, const 
   return made;
 }
 
-/// \name Add the classes of detector.cpp and scorer.cpp to the module.
+/// \name Add the classes and functions of the files of these names to the module.
 ///@{
+void bind_bench(py::module_& module);
 void bind_detector(py::module_& module);
+void bind_filter(py::module_& module);
+void bind_frame(py::module_& module);
+void bind_scenario(py::module_& module);
 void bind_scorer(py::module_& module);
 ///@}
 
@@ -35,4 +43,35 @@ void bind_scorer(py::module_& module);
 /// them. To be called after all classes are bound.
 void freeze_classes(const py::module_& module);
 
+// ---- Arguments and results whose Python type the signature names, for the stubs and for help().
+// The functions check arguments themselves, with messages of their own.
+
+template <std::size_t Size>
+struct TypeName {
+  consteval TypeName(const char (&name)[Size]) { std::copy_n(name, Size, text); }  // implicit
+  char text[Size]{};
+};
+
+template <TypeName kName>
+struct Typed : py::object {
+  using py::object::object;
+  explicit Typed(py::object value) : py::object(std::move(value)) {}
+  static bool check_(py::handle value) { return static_cast<bool>(value); }
+};
+
+using ArrayLike = Typed<"numpy.typing.ArrayLike">;
+using OptionalArray = Typed<"numpy.typing.ArrayLike | None">;
+using Settings = Typed<"collections.abc.Mapping[str, object] | None">;
+using OptionalSeed = Typed<"int | None">;
+using OptionalVector = Typed<"numpy.typing.NDArray[numpy.float64] | None">;
+using Frames = Typed<"collections.abc.Iterator[Frame]">;
+using Answer = Typed<"Result | Detections | numpy.typing.ArrayLike">;
+
 }  // namespace lcs::python
+
+/// \cond  Doxygen does not know the namespace.
+template <lcs::python::TypeName kName>
+struct pybind11::detail::handle_type_name<lcs::python::Typed<kName>> {
+  static constexpr auto name = const_name(kName.text);
+};
+/// \endcond

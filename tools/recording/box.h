@@ -9,7 +9,7 @@
 #include "sim/truth/truth.h"
 #include "tools/recording/labels.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 using Box = Eigen::AlignedBox2d;
 
@@ -57,4 +57,4 @@ inline double intersection_over_union(const Box& a, const Box& b) {
   return all > 0 ? common / all : 0;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -6,9 +6,9 @@
 
 #include "scenarios/input/message.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
-std::string packed_runs(const sim::Runs& runs) {
+std::string packed_runs(const sim::PixelRuns& runs) {
   std::string word;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::int64_t number = runs[i];
@@ -52,4 +52,4 @@ std::vector<std::int64_t> unpacked_runs(std::string_view word) {
   return runs;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

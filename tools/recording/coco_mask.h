@@ -9,12 +9,12 @@
 
 #include "sim/truth/mask.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
-std::string packed_runs(const sim::Runs& runs);
+std::string packed_runs(const sim::PixelRuns& runs);
 
 /// \return the run lengths, unchecked: they may be negative or have a wrong sum.
 /// \throws std::invalid_argument for a malformed string.
 std::vector<std::int64_t> unpacked_runs(std::string_view word);
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

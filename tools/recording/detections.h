@@ -10,7 +10,7 @@
 #include "tools/recording/frame_detections.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 struct Detections {
   /// The sequence with the file's verdicts and boxes instead of its own; without times.
@@ -21,8 +21,6 @@ struct Detections {
 /// \param sequence provides corners and truth; its camera is used to check the detections.
 /// \throws input::Error with file and line.
 Detections read_detections(const std::filesystem::path& csv, Recording sequence);
-
-inline constexpr const char* kDetectionsHeader = "frame,type";
 
 /// Writes a run's verdicts and boxes in the same format, frame by frame. Reading them back
 /// reproduces the rebel and square metrics to the last bit.
@@ -36,9 +34,9 @@ class DetectionsWriter {
   void close() { file_.close(); }
 
  private:
-  OutputFile file_;
+  files::OutputFile file_;
   std::optional<Intrinsics> camera_;
   bool states_circles_;  ///< before the next frame, as it may have none
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -13,54 +13,28 @@
 #include "tools/files/csv.h"
 #include "tools/recording/detections.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
-class RowReader {
- public:
-  explicit RowReader(Recording& recording) {
-    for (FrameRecord& frame : recording.frames) {
-      frames_.emplace(frame.index, FrameDetections(frame, recording.camera));
-    }
-  }
+using Frames = std::map<int, FrameDetections>;  ///< by index
 
-  /// \throws std::invalid_argument; the caller puts file and line before its message.
-  void read(const std::vector<std::string_view>& row) {
-    if (row.size() < 2) {
-      throw std::invalid_argument("a row begins with FRAME,TYPE; there is one field");
-    }
-    frame_of(row[0]).add(row[1], std::span(row).subspan(2));
-  }
-
-  void finish(Detections& detections) {
-    bool circles = false;
-    for (auto& [index, frame] : frames_) {
-      detections.counts += frame.finish();
-      circles |= frame.gives_circles();
-    }
-    detections.recording.detector.circles = circles;
-  }
-
- private:
-  FrameDetections& frame_of(std::string_view text) {
-    const std::optional<int> index = number_in<int>(text);
-    if (!index) {
-      throw std::invalid_argument(
-          input::printable(fmt::format("the frame is '{}'; give its number", text)));
-    }
-    const auto found = frames_.find(*index);
-    if (found != frames_.end()) return found->second;
-    if (frames_.empty()) {
-      throw std::invalid_argument(
-          fmt::format("there is no frame {}: the sequence has none; leave its rows out", *index));
-    }
+/// \throws std::invalid_argument; the caller puts file and line before its message.
+FrameDetections& frame_of(std::string_view text, Frames& frames) {
+  const std::optional<int> index = files::number_in<int>(text);
+  if (!index) {
     throw std::invalid_argument(
-        fmt::format("there is no frame {}: the sequence has {} to {}; give one of these", *index,
-                    frames_.begin()->first, frames_.rbegin()->first));
+        input::printable(fmt::format("the frame is '{}'; give its number", text)));
   }
-
-  std::map<int, FrameDetections> frames_;
-};
+  const auto found = frames.find(*index);
+  if (found != frames.end()) return found->second;
+  if (frames.empty()) {
+    throw std::invalid_argument(
+        fmt::format("there is no frame {}: the sequence has none; leave its rows out", *index));
+  }
+  throw std::invalid_argument(
+      fmt::format("there is no frame {}: the sequence has {} to {}; give one of these", *index,
+                  frames.begin()->first, frames.rbegin()->first));
+}
 
 }  // namespace
 
@@ -72,24 +46,35 @@ Detections read_detections(const std::filesystem::path& csv, Recording sequence)
   Detections detections;
   detections.recording = without_detections(std::move(sequence));
   detections.recording.detector = {.name = csv.stem().string(), .layered = false};
-  RowReader reader(detections.recording);
+  Frames frames;
+  for (FrameRecord& frame : detections.recording.frames) {
+    frames.emplace(frame.index, FrameDetections(frame, detections.recording.camera));
+  }
   std::string line;
   bool header_may_come = true;
   while (file.next_line(line)) {
-    const std::string_view text = trimmed(line);
+    const std::string_view text = files::trimmed(line);
     if (text.empty() || text.front() == '#') continue;
-    const std::vector<std::string_view> row = fields_of(text);
+    const std::vector<std::string_view> row = files::fields_of(text);
     const bool is_header = header_may_come && row.front() == "frame";
     header_may_come = false;
     if (is_header) continue;
     try {
-      reader.read(row);
+      if (row.size() < 2) {
+        throw std::invalid_argument("a row begins with FRAME,TYPE; there is one field");
+      }
+      frame_of(row[0], frames).add(row[1], std::span(row).subspan(2));
     } catch (const std::invalid_argument& error) {
       throw input::Error(file.here(), error.what());
     }
   }
-  reader.finish(detections);
+  bool circles = false;
+  for (auto& [index, frame] : frames) {
+    detections.counts += frame.finish();
+    circles |= frame.gives_circles();
+  }
+  detections.recording.detector.circles = circles;
   return detections;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

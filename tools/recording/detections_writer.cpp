@@ -8,7 +8,7 @@
 #include "tools/recording/detections.h"
 #include "tools/recording/recording_fields.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 /// The image size; without a camera, the least size that holds the mask and all corners.
@@ -33,7 +33,7 @@ std::string rows_of(const FrameRecord& frame, const std::optional<Intrinsics>& c
   for (const Square& square : frame.layers.squares) {
     if (const auto mask = frame.masks.find(square.id); mask != frame.masks.end()) {
       const cv::Size size = size_for(mask->second, frame, camera);
-      const sim::Runs runs = sim::runs_in({{}, size}, mask->second);
+      const sim::PixelRuns runs = sim::runs_in({{}, size}, mask->second);
       rows += fmt::format("{},mask,{},{},{},{}\n", k, square.id, size.height, size.width,
                           packed_runs(runs));
       continue;
@@ -56,7 +56,7 @@ std::string rows_of(const FrameRecord& frame, const std::optional<Intrinsics>& c
 
 DetectionsWriter::DetectionsWriter(const std::filesystem::path& csv, const RunInfo& run)
     : file_(csv), camera_(run.camera), states_circles_(run.detector.circles) {
-  file_.write(fmt::format("{}\n", kDetectionsHeader));
+  file_.write("frame,type\n");
 }
 
 void DetectionsWriter::write(const FrameRecord& frame) {
@@ -65,4 +65,4 @@ void DetectionsWriter::write(const FrameRecord& frame) {
   file_.write(rows_of(frame, camera_));
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -14,7 +14,7 @@
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 /// \throws std::invalid_argument; the caller puts file and line, or the frame, before its message.
@@ -25,9 +25,10 @@ template <class... Arguments>
       input::printable(fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
 
-double number(std::string_view text, const char* what) {
-  const std::optional<double> value = number_in<double>(text);
-  if (!value) refuse("{} is '{}'; give a number", what, text);
+template <class Number = double>
+Number number(std::string_view text, const char* what, const char* remedy = "give a number") {
+  const std::optional<Number> value = files::number_in<Number>(text);
+  if (!value) refuse("{} is '{}'; {}", what, text, remedy);
   return *value;
 }
 
@@ -44,9 +45,7 @@ void require_not_negative(double value, const char* what) {
 }
 
 Id id_in(std::string_view text) {
-  const std::optional<Id> id = number_in<Id>(text);
-  if (!id) refuse("the id is '{}'; give a whole number from 0 on", text);
-  return *id;
+  return number<Id>(text, "the id", "give a whole number from 0 on");
 }
 
 Box widened(const Box& box, double by_px) {
@@ -58,9 +57,7 @@ std::vector<std::int64_t> counts_in(std::span<const std::string_view> counts) {
   if (counts.size() == 1) return unpacked_runs(counts[0]);
   std::vector<std::int64_t> runs;
   for (const std::string_view text : counts) {
-    const std::optional<std::int64_t> run = number_in<std::int64_t>(text);
-    if (!run) refuse("a count of the mask is '{}'; give whole numbers", text);
-    runs.push_back(*run);
+    runs.push_back(number<std::int64_t>(text, "a count of the mask", "give whole numbers"));
   }
   return runs;
 }
@@ -133,16 +130,16 @@ void FrameDetections::add_verdict(Verdict verdict, std::span<const std::string_v
 }
 
 std::size_t FrameDetections::corner_by_index(std::string_view text) const {
-  const std::optional<std::size_t> index = number_in<std::size_t>(text);
-  if (!index) refuse("the corner is '{}'; give its index from 0 on, or x and y", text);
-  if (*index >= named_.size()) {
-    refuse("there is no corner {}: frame {} has {}; count them from 0", *index, frame_->index,
+  const auto index =
+      number<std::size_t>(text, "the corner", "give its index from 0 on, or x and y");
+  if (index >= named_.size()) {
+    refuse("there is no corner {}: frame {} has {}; count them from 0", index, frame_->index,
            named_.size());
   }
-  if (named_[*index]) {
-    refuse("corner {} of frame {} has a verdict already; give one for each", *index, frame_->index);
+  if (named_[index]) {
+    refuse("corner {} of frame {} has a verdict already; give one for each", index, frame_->index);
   }
-  return *index;
+  return index;
 }
 
 void FrameDetections::require_picture(const cv::Size& size_px) const {
@@ -217,7 +214,7 @@ void FrameDetections::add_box(Id id, const Vec2& corner, const Vec2& size) {
 void FrameDetections::add_mask(std::span<const std::string_view> values) {
   if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
   const auto side = [&](std::size_t i, const char* what) {
-    const std::optional<int> px = number_in<int>(values[i]);
+    const std::optional<int> px = files::number_in<int>(values[i]);
     if (!px || *px < 1) refuse("{} is '{}'; give the picture's size", what, values[i]);
     return *px;
   };
@@ -337,4 +334,4 @@ VerdictCounts FrameDetections::finish() {
   return counts_;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

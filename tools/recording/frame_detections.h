@@ -15,7 +15,7 @@
 #include "tools/recording/box.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 /// Largest distance between a verdict given by position and its corner. Other corner detectors
 /// place the same corner up to this far from FAST's position (SCORING.md).
@@ -94,4 +94,4 @@ class FrameDetections {
   VerdictCounts counts_;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 struct LabelledBox {
   int id = -1;  ///< of the object, the same in all images; -1: not given
@@ -41,8 +41,8 @@ class Labels {
   };
 
   std::vector<Picture> pictures;
-  std::optional<int> first;       ///< number of the recording's first image; absent: not stated
-  std::vector<std::string> told;  ///< remarks on the file, a line each
+  std::optional<int> first;          ///< number of the recording's first image; absent: not stated
+  std::vector<std::string> remarks;  ///< remarks on the file, a line each
 
   /// Joins the labels with the images of a recording: by their names, by their names without
   /// endings, or by their numbers; the first of these that finds an image decides. Where `first` is
@@ -75,4 +75,4 @@ class Labels {
 /// \throws input::Error with file and line (COCO: the entry), and the remedy.
 Labels read_labels(const std::filesystem::path& file, const std::string& video = "");
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -11,7 +11,7 @@
 #include "tools/files/json_node.h"
 #include "tools/recording/labels.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 constexpr input::FileKind kLabelsFile{
@@ -35,79 +35,61 @@ LabelledBox box_of(int id, double left, double top, double width, double height)
 }
 
 /// The object ids that each image has already.
-class Ids {
- public:
-  void add(const std::string& picture, int id) {
-    require(id < 0 || seen_.emplace(picture, id).second,
-            fmt::format("object {} has a box in that picture already", id));
-  }
+using Ids = std::set<std::pair<std::uint64_t, int>>;
 
- private:
-  std::set<std::pair<std::string, int>> seen_;
-};
+void require_new(std::uint64_t picture, int id, Ids& ids) {
+  require(id < 0 || ids.emplace(picture, id).second,
+          fmt::format("object {} has a box in that picture already", id));
+}
 
 /// Fields of a text row.
-class LabelRow {
- public:
-  LabelRow(std::vector<std::string_view> fields, std::size_t least, const char* format)
-      : fields_(std::move(fields)) {
-    require(fields_.size() >= least,
-            fmt::format("{} fields are too few for {}", fields_.size(), format));
+struct LabelRow {
+  std::vector<std::string_view> fields;
+
+  LabelRow(std::vector<std::string_view> fields_, std::size_t least, const char* format)
+      : fields(std::move(fields_)) {
+    require(fields.size() >= least,
+            fmt::format("{} fields are too few for {}", fields.size(), format));
   }
-  std::string_view text(std::size_t field) const { return fields_[field]; }
   double number(std::size_t field, const char* what) const {
-    const std::optional<double> number = number_in<double>(fields_[field]);
-    require(number.has_value(),
-            fmt::format("{} is '{}', which is no number", what, fields_[field]));
+    const std::optional<double> number = files::number_in<double>(fields[field]);
+    require(number.has_value(), fmt::format("{} is '{}', which is no number", what, fields[field]));
     return *number;
   }
   /// Parses an integer; some files write 3.0 for 3.
   int whole(std::size_t field, const char* what, int least, int most) const {
     const double value = number(field, what);
-    require(value == std::floor(value) && value >= least && value <= most,
-            fmt::format("{} is '{}', which is not a whole number from {}", what, fields_[field],
-                        least));
+    require(
+        value == std::floor(value) && value >= least && value <= most,
+        fmt::format("{} is '{}', which is not a whole number from {}", what, fields[field], least));
     return static_cast<int>(value);
   }
-  bool has(std::size_t field) const { return field < fields_.size(); }
-
- private:
-  std::vector<std::string_view> fields_;
 };
 
-/// Images by the number in their rows.
-class Numbered {
- public:
-  void add(int number, const LabelledBox& box) {
-    ids_.add(std::to_string(number), box.id);
-    boxes_[number].push_back(box);
-  }
-  Labels labels(int first) const {
-    Labels labels;
-    labels.first = first;
-    for (const auto& [number, boxes] : boxes_) labels.pictures.push_back({number, "", boxes});
-    return labels;
-  }
-  bool has_zero() const { return boxes_.contains(0); }
+/// Boxes by the number in their rows.
+struct Numbered {
+  std::map<int, Labels::Boxes> boxes;
+  Ids ids;
 
- private:
-  std::map<int, Labels::Boxes> boxes_;
-  Ids ids_;
+  void add(int number, const LabelledBox& box) {
+    require_new(static_cast<std::uint64_t>(number), box.id, ids);
+    boxes[number].push_back(box);
+  }
 };
 
 void read_mot_row(std::string_view line, Numbered& numbered) {
-  const LabelRow row(fields_of(line), 6, "FRAME,ID,LEFT,TOP,WIDTH,HEIGHT");
+  const LabelRow row(files::fields_of(line), 6, "FRAME,ID,LEFT,TOP,WIDTH,HEIGHT");
   const int picture = row.whole(0, "the frame", 0, kMostPictures);
   const int id = row.whole(1, "the id", -1, kMostPictures);
   LabelledBox box = box_of(id, row.number(2, "the left side") - 1, row.number(3, "the top") - 1,
                            row.number(4, "the width"), row.number(5, "the height"));
-  box.ignored = row.has(6) && row.number(6, "the seventh field") == 0;
+  box.ignored = row.fields.size() > 6 && row.number(6, "the seventh field") == 0;
   numbered.add(picture, box);
 }
 
 void read_kitti_row(std::string_view line, Numbered& numbered) {
   std::vector<std::string_view> fields;
-  for (std::string_view rest = trimmed(line); !rest.empty(); rest = trimmed(rest)) {
+  for (std::string_view rest = files::trimmed(line); !rest.empty(); rest = files::trimmed(rest)) {
     fields.push_back(rest.substr(0, rest.find_first_of(" \t")));
     rest.remove_prefix(fields.back().size());
   }
@@ -116,16 +98,16 @@ void read_kitti_row(std::string_view line, Numbered& numbered) {
   LabelledBox box =
       box_of(row.whole(1, "the id", -1, kMostPictures), left, top,
              row.number(8, "the right side") - left, row.number(9, "the bottom") - top);
-  box.ignored = row.text(2) == "DontCare";
+  box.ignored = row.fields[2] == "DontCare";
   numbered.add(row.whole(0, "the frame", 0, kMostPictures), box);
 }
 
 template <class ReadRow>
-Numbered read_rows(const std::filesystem::path& file, const ReadRow& read_row) {
+Labels read_rows(const std::filesystem::path& file, const ReadRow& read_row) {
   input::InputFile input(file, kLabelsFile);
   Numbered numbered;
   for (std::string line; input.next_line(line);) {
-    if (trimmed(line).empty()) continue;
+    if (files::trimmed(line).empty()) continue;
     try {
       read_row(line, numbered);
     } catch (const std::invalid_argument& error) {
@@ -133,46 +115,44 @@ Numbered read_rows(const std::filesystem::path& file, const ReadRow& read_row) {
                          input::printable(fmt::format("{}; {}", error.what(), kLabelsFile.remedy)));
     }
   }
-  return numbered;
+  Labels labels;
+  for (const auto& [number, boxes] : numbered.boxes) labels.pictures.push_back({number, "", boxes});
+  return labels;
 }
 
 Labels read_mot(const std::filesystem::path& file) {
-  const Numbered numbered = read_rows(file, read_mot_row);
-  Labels labels = numbered.labels(numbered.has_zero() ? 0 : 1);
-  if (numbered.has_zero())
-    labels.told.emplace_back("labels: their frames count from 0, not from 1");
+  Labels labels = read_rows(file, read_mot_row);
+  const bool has_zero = !labels.pictures.empty() && labels.pictures.front().number == 0;
+  labels.first = has_zero ? 0 : 1;
+  if (has_zero) labels.remarks.emplace_back("labels: their frames count from 0, not from 1");
   return labels;
 }
 
 Labels read_kitti(const std::filesystem::path& file) {
-  Labels labels = read_rows(file, read_kitti_row).labels(0);
-  labels.told.emplace_back(
+  Labels labels = read_rows(file, read_kitti_row);
+  labels.first = 0;
+  labels.remarks.emplace_back(
       "labels: KITTI's boxes are of all objects, also of those at rest, which then count as "
       "missed");
   return labels;
 }
 
-/// COCO file names may begin with folders.
-std::string file_name_of(const std::string& path) {
-  return path.substr(path.find_last_of('/') + 1);
-}
-
 /// A whole number, also as 3.0; some converters write floats.
-std::uint64_t id_in(const JsonNode& node, double most = 1e15) {
+std::uint64_t id_in(const files::JsonNode& node, double most = 1e15) {
   const double number = node.number();
   node.require(number >= 0 && number <= most && number == std::floor(number),
                "a whole number from 0");
   return static_cast<std::uint64_t>(number);
 }
-int count_in(const JsonNode& node) {
+int count_in(const files::JsonNode& node) {
   return static_cast<int>(id_in(node, kMostPictures));
 }
 
 /// The id of the video whose labels are read; absent if the file has only one, or none.
-std::optional<std::uint64_t> video_in(const JsonNode& json, const std::string& video) {
+std::optional<std::uint64_t> video_in(const files::JsonNode& json, const std::string& video) {
   std::map<std::string, std::uint64_t> ids;
   if (json.has("videos")) {
-    json["videos"].each([&](const JsonNode& one) {
+    json["videos"].each([&](const files::JsonNode& one) {
       const std::string name = one.has("name")        ? one["name"].text()
                                : one.has("file_name") ? one["file_name"].text()
                                                       : std::to_string(id_in(one["id"]));
@@ -183,21 +163,22 @@ std::optional<std::uint64_t> video_in(const JsonNode& json, const std::string& v
   for (const auto& [name, id] : ids) names += (names.empty() ? "" : ", ") + name;
   if (const auto found = ids.find(video); found != ids.end()) return found->second;
   if (!video.empty()) {
-    throw JsonNode::Error(fmt::format("there is no video {}, but {}", video, names));
+    throw files::JsonNode::Error(fmt::format("there is no video {}, but {}", video, names));
   }
   if (ids.size() < 2) return std::nullopt;
-  throw JsonNode::Error(fmt::format("it has several videos: {}; name one (labels_video)", names));
+  throw files::JsonNode::Error(
+      fmt::format("it has several videos: {}; name one (labels_video)", names));
 }
 
 Labels read_coco(const std::filesystem::path& file, const std::string& video) {
-  return read_json(file, kLabelsFile, [&](const JsonNode& json) {
+  return files::read_json(file, kLabelsFile, [&](const files::JsonNode& json) {
     Labels labels;
     Ids ids;
     const std::optional<std::uint64_t> only = video_in(json, video);
     std::map<std::uint64_t, std::optional<std::size_t>>
         places;  // by image id; of other videos none
     std::set<std::pair<std::string, int>> seen;
-    json["images"].each([&](const JsonNode& image) {
+    json["images"].each([&](const files::JsonNode& image) {
       const bool is_other = only && image.has("video_id") && id_in(image["video_id"]) != *only;
       const auto place = is_other ? std::nullopt : std::optional(labels.pictures.size());
       image["id"].require(places.emplace(id_in(image["id"]), place).second,
@@ -207,13 +188,14 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
       const bool is_numbered = image.has("frame_id");
       if (is_numbered) picture.number = count_in(image["frame_id"]);
       if (!is_numbered || image.has("file_name")) {
-        picture.name = file_name_of(image["file_name"].text());
+        // It may begin with folders.
+        picture.name = std::filesystem::path(image["file_name"].text()).filename();
       }
       const bool is_new = seen.emplace(picture.name, picture.number.value_or(-1)).second;
       image[is_numbered ? "frame_id" : "file_name"].require(is_new, "one that no other image has");
       labels.pictures.push_back(picture);
     });
-    json["annotations"].each([&](const JsonNode& annotation) {
+    json["annotations"].each([&](const files::JsonNode& annotation) {
       const std::uint64_t image = id_in(annotation["image_id"]);
       const auto found = places.find(image);
       annotation["image_id"].require(found != places.end(), "the id of an image in the list");
@@ -222,11 +204,11 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
       const auto [left, top, width, height] = annotation["bbox"].numbers<4>();
       try {
         LabelledBox box = box_of(id, left, top, width, height);
-        const auto is_crowd = [](const JsonNode& flag) {
-          return flag.is_flag() ? flag.flag() : flag.number() != 0;
+        const auto is_crowd = [](const files::JsonNode& flag) {
+          return flag.json().is_boolean() ? flag.flag() : flag.number() != 0;
         };
         box.ignored = annotation.has("iscrowd") && is_crowd(annotation["iscrowd"]);
-        ids.add(std::to_string(image), id);
+        require_new(image, id, ids);
         labels.pictures[*found->second].boxes.push_back(box);
       } catch (const std::invalid_argument& error) {
         annotation["bbox"].require(false, fmt::format("a mover's box: {}", error.what()));
@@ -240,13 +222,9 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
 std::string first_line(const std::filesystem::path& file) {
   input::InputFile input(file, kLabelsFile);
   for (std::string line; input.next_line(line);) {
-    if (!trimmed(line).empty()) return std::string(trimmed(line));
+    if (!files::trimmed(line).empty()) return std::string(files::trimmed(line));
   }
   throw input::Error({file.string(), 0}, "is empty; {}", kLabelsFile.remedy);
-}
-
-std::string stem_of(const std::string& name) {
-  return std::filesystem::path(name).stem().string();
 }
 
 }  // namespace
@@ -267,8 +245,10 @@ std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
     return !picture_of_.empty();
   };
   const auto name = [](const auto& image) { return image.name; };
-  const auto stem = [](const auto& image) { return stem_of(image.name); };
-  std::vector<std::string> lines = told;
+  const auto stem = [](const auto& image) {
+    return std::filesystem::path(image.name).stem().string();
+  };
+  std::vector<std::string> lines = remarks;
   std::vector<int> stated;
   for (const Picture& picture : pictures) {
     if (picture.number) stated.push_back(*picture.number);
@@ -320,4 +300,4 @@ Labels read_labels(const std::filesystem::path& file, const std::string& video) 
                                                                     : read_mot(file);
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

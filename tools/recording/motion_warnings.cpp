@@ -4,11 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 using Pixel = Eigen::Vector2i;
@@ -174,47 +175,37 @@ void MotionWatch::add(const FrameRecord& frame) {
   parts_ += all;
 }
 
-std::array<MotionWarning, 4> MotionWatch::warnings() const {
+std::vector<Warned> MotionWatch::warnings() const {
   constexpr std::int64_t kFewestTurns = 5, kFewestStretches = 3;
   constexpr double kNearlyAlways = 0.9, kWhole = 0.7;
-  std::array<MotionWarning, 4> all{
-      {{"runaway_speed"}, {"turn_not_told"}, {"still_camera"}, {"many_rebels"}}};
-  auto& [runaway, turn, still, many] = all;
-  if (runaway_.count > 0) {
-    runaway.count = runaway_.count;
-    runaway.text = fmt::format(
-        "the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's biases by a time at "
-        "rest, a start with its speed, or readings in m/s",
-        runaway_mps_, runaway_.first_s);
-  }
-  if (turns_.count >= kFewestTurns) {
-    turn.count = turns_.count;
-    turn.text = fmt::format(
-        "the whole picture turns in {} of {} frames, first at {:.2f} s, and no turn is told: give "
-        "the camera's poses or its IMU",
-        turns_.count, frames_, turns_.first_s);
-  }
+  const auto warned = [](const char* word, const Sign& sign, bool is_met, std::string text) {
+    return is_met ? Warned{word, sign.count, std::move(text)} : Warned{word, 0, ""};
+  };
   const bool is_always =
       static_cast<double>(stands_.count) >= kNearlyAlways * static_cast<double>(stretches_);
-  if (stands_.count >= kFewestStretches && is_always) {
-    still.count = stands_.count;
-    still.text = fmt::format(
-        "the camera is told to move, and its pictures stand still, first at {:.2f} s: give the "
-        "speed of this recording, 0 for a camera that stands",
-        stands_.first_s);
-  }
-  if (2 * rebels_.count > judged_) {
-    many.count = rebels_.count;
-    const double share = parts_ > 0 ? static_cast<double>(rebel_parts_) / parts_ : 0;
-    many.text = fmt::format(
-        "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s, and "
-        "most corners in {:.0f} % of the picture's parts: {}",
-        100 * kManyRebels, rebels_.count, judged_, rebels_.first_s, 100 * share,
-        share > kWhole ? "the motion or the focal length that is told is not the camera's"
-                       : "bodies that move may fill the view; else the motion or the focal length "
-                         "that is told is not the camera's");
-  }
-  return all;
+  const double share = parts_ > 0 ? static_cast<double>(rebel_parts_) / parts_ : 0;
+  return {
+      warned("runaway_speed", runaway_, runaway_.count > 0,
+             fmt::format("the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's "
+                         "biases by a time at rest, a start with its speed, or readings in m/s",
+                         runaway_mps_, runaway_.first_s)),
+      warned("turn_not_told", turns_, turns_.count >= kFewestTurns,
+             fmt::format("the whole picture turns in {} of {} frames, first at {:.2f} s, and no "
+                         "turn is told: give the camera's poses or its IMU",
+                         turns_.count, frames_, turns_.first_s)),
+      warned("still_camera", stands_, stands_.count >= kFewestStretches && is_always,
+             fmt::format("the camera is told to move, and its pictures stand still, first at "
+                         "{:.2f} s: give the speed of this recording, 0 for a camera that stands",
+                         stands_.first_s)),
+      warned("many_rebels", rebels_, 2 * rebels_.count > judged_,
+             fmt::format("{:.0f} % and more of the corners are rebels in {} of {} frames, first at "
+                         "{:.2f} s, and most corners in {:.0f} % of the picture's parts: {}",
+                         100 * kManyRebels, rebels_.count, judged_, rebels_.first_s, 100 * share,
+                         share > kWhole
+                             ? "the motion or the focal length that is told is not the camera's"
+                             : "bodies that move may fill the view; else the motion or the focal "
+                               "length that is told is not the camera's")),
+  };
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

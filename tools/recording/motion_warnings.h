@@ -4,19 +4,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
-struct MotionWarning {
-  const char* word;        ///< "warnings.WORD" is the metric
-  std::int64_t count = 0;  ///< frames in which it occurred
-  std::string text = {};   ///< first occurrence and remedy; empty if it did not occur
+struct Warned {
+  std::string word;                   ///< "warnings.WORD" is the metric
+  std::optional<std::int64_t> count;  ///< absent: not checked in this run
+  std::string text;                   ///< first occurrence and remedy; empty if it did not occur
 };
 
 /// Faster than any road vehicle: dead reckoning has diverged, or the unit is wrong.
@@ -38,7 +38,7 @@ class MotionWatch {
  public:
   void add(const FrameRecord& frame);
   /// Of the frames so far.
-  std::array<MotionWarning, 4> warnings() const;
+  std::vector<Warned> warnings() const;
 
  private:
   using Corners = std::vector<Eigen::Vector2f>;
@@ -64,4 +64,4 @@ class MotionWatch {
   int rebel_parts_ = 0, parts_ = 0;  ///< of the picture, in frames with many rebels
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 void set_corner_truth(Truth truth, FrameRecord& frame) {
   sim::CornerTruth of_each;
@@ -25,4 +25,4 @@ Recording without_detections(Recording recording) {
   return recording;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

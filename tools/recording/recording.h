@@ -22,7 +22,7 @@
 #include "sim/world/warnings.h"
 #include "tools/recording/labels.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 /// Sightings needed for a rebel verdict (N in the paper): the warm-up, and one more than the least
 /// latency.
@@ -114,4 +114,4 @@ void set_corner_truth(Truth truth, FrameRecord& frame);
 FrameRecord without_detections(FrameRecord frame);
 Recording without_detections(Recording recording);
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

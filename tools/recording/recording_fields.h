@@ -3,15 +3,16 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
-#include "filter/kinematics/ego_motion.h"
 #include "filter/types/layers.h"
 #include "filter/types/reason.h"
 #include "sim/truth/truth.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 /// \name Names of enumerators, in the order of their declaration.
 ///@{
@@ -26,33 +27,25 @@ inline constexpr auto kReasonWords = [] {
   return words;
 }();
 
-inline const auto& names_of(Verdict) {
-  return kVerdicts;
-}
-inline const auto& names_of(Reason) {
-  return kReasonWords;
-}
-inline const auto& names_of(sim::Label) {
-  return kLabels;
-}
-inline const auto& names_of(Truth) {
-  return kTruths;
-}
-inline const auto& names_of(IgnoreRegion::Shape) {
-  return kShapes;
+template <class Enum>
+constexpr const auto& names_of(Enum) {
+  if constexpr (std::is_same_v<Enum, Verdict>) return kVerdicts;
+  if constexpr (std::is_same_v<Enum, Reason>) return kReasonWords;
+  if constexpr (std::is_same_v<Enum, sim::Label>) return kLabels;
+  if constexpr (std::is_same_v<Enum, Truth>) return kTruths;
+  if constexpr (std::is_same_v<Enum, IgnoreRegion::Shape>) return kShapes;
 }
 ///@}
 
-/// \name Numbers that may be non-finite. JSON has finite numbers only; null represents the other
-/// value.
-///@{
-struct OrInfinite {  ///< +inf, for example the depth of the sky
+/// A number that may be non-finite. JSON has finite numbers only; null represents the other value.
+template <bool kMayBeInfinite>
+struct OrNull {
   double& number;
+  static constexpr double kNull = kMayBeInfinite ? std::numeric_limits<double>::infinity()
+                                                 : std::numeric_limits<double>::quiet_NaN();
 };
-struct OrNan {  ///< NaN, for example the motion of a point that moves behind the camera
-  double& number;
-};
-///@}
+using OrInfinite = OrNull<true>;  ///< +inf, for example the depth of the sky
+using OrNan = OrNull<false>;      ///< NaN, for example the motion of a point behind the camera
 
 /// A shape (an outline, a mask), which numeric tables omit. Older files lack it.
 template <class T>
@@ -70,17 +63,11 @@ struct CornerRow {
   Reason reason = Reason::unknown;
 };
 
-/// A corner's position, in pixels.
-struct Place {
-  double x = 0;
-  double y = 0;
-};
-
 /// The pixels of a square, within a bounding box of pixel edges.
 struct MaskRow {
   Id square = 0;
   int left = 0, top = 0, right = 0, bottom = 0;
-  sim::Runs mask;
+  sim::PixelRuns mask;
 };
 
 /// A row of alpha, with only its valid sightings.
@@ -88,6 +75,12 @@ struct ChainRow {
   std::vector<Vec2> sightings;
   double off_field_px = 0;
 };
+
+template <class Visit>
+void pair(const char* x, const char* y, Vec2& numbers, Visit& visit) {
+  visit(x, numbers.x());
+  visit(y, numbers.y());
+}
 
 // Each `fields` calls visit(name, member) for every stored field in file order; the member is a
 // reference or one of the wrappers above. The bindings name all members, so that a new member
@@ -102,11 +95,11 @@ void fields(CornerRow& corner, Visit&& visit) {
   visit("reason", reason);
 }
 
+/// A corner's position, in pixels.
 template <class Visit>
-void fields(Place& place, Visit&& visit) {
-  auto& [x, y] = place;
-  visit("x", x);
-  visit("y", y);
+void fields(Eigen::Vector2f& place, Visit&& visit) {
+  visit("x", place.x());
+  visit("y", place.y());
 }
 
 template <class Visit>
@@ -121,14 +114,10 @@ void fields(Edge& edge, Visit&& visit) {
   auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
          depth_ratio_sigma, corner, circle] = edge;
   visit("id", id);
-  visit("x", location.x());
-  visit("y", location.y());
-  visit("origin_x", origin.x());
-  visit("origin_y", origin.y());
-  visit("rotated_x", rotated.x());
-  visit("rotated_y", rotated.y());
-  visit("predicted_x", predicted.x());
-  visit("predicted_y", predicted.y());
+  pair("x", "y", location, visit);
+  pair("origin_x", "origin_y", origin, visit);
+  pair("rotated_x", "rotated_y", rotated, visit);
+  pair("predicted_x", "predicted_y", predicted, visit);
   visit("speed", speed);
   visit("depth_ratio", depth_ratio);
   visit("angle", angle);
@@ -145,10 +134,8 @@ void fields(Circle& circle, Visit&& visit) {
   auto& [id, rebel, location, origin, radius, speed, depth_ratio, angle, trust, age, members,
          ignoring] = circle;
   visit("id", id);
-  visit("x", location.x());
-  visit("y", location.y());
-  visit("origin_x", origin.x());
-  visit("origin_y", origin.y());
+  pair("x", "y", location, visit);
+  pair("origin_x", "origin_y", origin, visit);
   visit("radius", radius);
   visit("speed", speed);
   visit("depth_ratio", depth_ratio);
@@ -164,12 +151,9 @@ void fields(Square& square, Visit&& visit) {
   auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
          rebel_circles, ignoring, outline] = square;
   visit("id", id);
-  visit("x", location.x());
-  visit("y", location.y());
-  visit("half_width", half_size.x());
-  visit("half_height", half_size.y());
-  visit("origin_x", origin.x());
-  visit("origin_y", origin.y());
+  pair("x", "y", location, visit);
+  pair("half_width", "half_height", half_size, visit);
+  pair("origin_x", "origin_y", origin, visit);
   visit("speed", speed);
   visit("depth_ratio", depth_ratio);
   visit("angle", angle);
@@ -186,10 +170,8 @@ void fields(GapSeen& seen, Visit&& visit) {
   auto& [gap, evidence] = seen;
   auto& [circle, place_px, across, columns, rows, inverse_depth_pm] = gap;
   visit("circle", circle);
-  visit("x", place_px.x());
-  visit("y", place_px.y());
-  visit("across_x", across.x());
-  visit("across_y", across.y());
+  pair("x", "y", place_px, visit);
+  pair("across_x", "across_y", across, visit);
   visit("columns", columns);
   visit("rows", rows);
   visit("inverse_depth_pm", inverse_depth_pm);
@@ -200,17 +182,14 @@ template <class Visit>
 void fields(IgnoreRegion& region, Visit&& visit) {
   auto& [shape, location, size] = region;
   visit("shape", shape);
-  visit("x", location.x());
-  visit("y", location.y());
-  visit("size_x", size.x());
-  visit("size_y", size.y());
+  pair("x", "y", location, visit);
+  pair("size_x", "size_y", size, visit);
 }
 
 template <class Visit>
 void fields(Collector& collector, Visit&& visit) {
   auto& [location, radius, depth_ratio] = collector;
-  visit("x", location.x());
-  visit("y", location.y());
+  pair("x", "y", location, visit);
   visit("radius", radius);
   visit("depth_ratio", depth_ratio);
 }
@@ -272,4 +251,4 @@ void fields(sim::Object& object, Visit&& visit) {
   visit("name", name);
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -29,7 +29,7 @@
 #include "tools/files/output_file.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 inline constexpr const char* kLayersFile = "layers.jsonl";
 inline constexpr const char* kTruthFile = "truth.jsonl";
@@ -91,8 +91,8 @@ class RecordingWriter {
   void close();
 
  private:
-  TextFile layers_;
-  std::optional<TextFile> truth_;
+  files::TextFile layers_;
+  std::optional<files::TextFile> truth_;
 };
 
 /// Reads both files frame by frame, and the warnings beside them if present.
@@ -101,8 +101,6 @@ class RecordingReader {
   /// \throws std::runtime_error with file and line.
   explicit RecordingReader(const std::filesystem::path& folder);
   ~RecordingReader();
-  RecordingReader(const RecordingReader&) = delete;
-  RecordingReader& operator=(const RecordingReader&) = delete;
 
   const RunInfo& run() const { return run_; }
 
@@ -131,4 +129,4 @@ RunInfo read_run_info(const std::filesystem::path& folder);
 std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
                                                              std::span<const int> frames);
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

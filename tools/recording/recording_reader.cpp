@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -22,7 +21,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 namespace {
 
 using Json = simdjson::dom::element;
@@ -82,12 +81,14 @@ void read(Json json, std::string& text) {
 void read(Json json, double& number) {
   require(json.get(number) == simdjson::SUCCESS, "a number");
 }
-void read(Json json, OrInfinite value) {
-  value.number = std::numeric_limits<double>::infinity();
-  if (!json.is_null()) read(json, value.number);
+void read(Json json, float& number) {
+  double exact = 0;
+  read(json, exact);
+  number = static_cast<float>(exact);
 }
-void read(Json json, OrNan value) {
-  value.number = std::numeric_limits<double>::quiet_NaN();
+template <bool kMayBeInfinite>
+void read(Json json, OrNull<kMayBeInfinite> value) {
+  value.number = value.kNull;
   if (!json.is_null()) read(json, value.number);
 }
 template <class Integer>
@@ -117,7 +118,7 @@ void read(Json json, Enum& value) {
   value = static_cast<Enum>(found - names.begin());
 }
 
-void read_array(Json json, std::span<double> values) {
+void read(Json json, std::span<double> values) {
   constexpr const char* kWhat = "a list of as many numbers as belong";
   const JsonList list = list_of(json, kWhat);
   require(list.size() == values.size(), kWhat);
@@ -128,7 +129,7 @@ void read_array(Json json, std::span<double> values) {
 void read(Json json, std::vector<Vec2>& points) {
   const JsonList list = list_of(json, "a list of points");
   points.reserve(list.size());
-  for (const Json item : list) read_array(item, {points.emplace_back().data(), 2});
+  for (const Json item : list) read(item, std::span(points.emplace_back().data(), 2));
 }
 
 void read(Json json, Form<Outline> outline) {
@@ -142,7 +143,7 @@ void read(Json json, Form<Outline> outline) {
 }
 
 /// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
-void read(Json json, Form<sim::Runs> runs) {
+void read(Json json, Form<sim::PixelRuns> runs) {
   std::string_view word;
   read(json, word);
   runs.value.clear();
@@ -162,19 +163,9 @@ constexpr bool kMayLack = false;
 template <class Value>
 constexpr bool kMayLack<Form<Value>> = true;
 
-/// Reads a member of an object.
-template <class... Out>
-void read_member(Json json, const char* key, Out&&... out) {
-  const Json value = member(json, key);
-  within(fmt::format(".{}", key), [&] { read(value, std::forward<Out>(out)...); });
-}
-void read_member_array(Json json, const char* key, std::span<double> values) {
-  const Json value = member(json, key);
-  within(fmt::format(".{}", key), [&] { read_array(value, values); });
-}
-
+/// Reads items that are stored by column.
 template <class Item>
-std::vector<Item> columns_of(Json json) {
+void read(Json json, std::vector<Item>& items) {
   std::vector<std::optional<JsonList>> columns;
   Item item;
   fields(item, [&]<class Value>(const char* name, const Value&) {
@@ -191,7 +182,6 @@ std::vector<Item> columns_of(Json json) {
     }
     cells.push_back(column.value_or(first).begin());
   }
-  std::vector<Item> items;
   items.reserve(first.size());
   for (std::size_t row = 0; row < first.size(); ++row) {
     std::size_t column = 0;
@@ -207,14 +197,20 @@ std::vector<Item> columns_of(Json json) {
     });
     items.push_back(item);
   }
-  return items;
 }
 
+void read(Json json, EgoMotion& motion);
+
+/// Reads a member of an object.
+template <class Out>
+void read_member(Json json, const char* key, Out&& out) {
+  const Json value = member(json, key);
+  within(fmt::format(".{}", key), [&] { read(value, out); });
+}
 template <class Item>
 std::vector<Item> read_columns(Json json, const char* key) {
-  const Json list = member(json, key);
   std::vector<Item> items;
-  within(fmt::format(".{}", key), [&] { items = columns_of<Item>(list); });
+  read_member(json, key, items);
   return items;
 }
 
@@ -237,18 +233,13 @@ std::vector<Item> read_masks(Json json, const char* key, bool may_lack) {
   return items;
 }
 
-std::vector<sim::ObjectTruth> read_objects(Json json) {
-  return read_masks<sim::ObjectTruth>(json, "objects", true);
-}
-
-EgoMotion motion_of(Json json) {
-  EgoMotion motion;
+void read(Json json, EgoMotion& motion) {
   Eigen::Matrix3d by_rows;
   read_member(json, "dt_s", motion.dt_s);
-  read_member_array(json, "R_cur_prev", {by_rows.data(), 9});
+  read_member(json, "R_cur_prev", std::span(by_rows.data(), 9));
   motion.R_cur_prev = by_rows.transpose();
-  read_member_array(json, "v_C_mps", {motion.v_C_mps.data(), 3});
-  read_member_array(json, "w_C_radps", {motion.w_C_radps.data(), 3});
+  read_member(json, "v_C_mps", std::span(motion.v_C_mps.data(), 3));
+  read_member(json, "w_C_radps", std::span(motion.w_C_radps.data(), 3));
   const auto read_known = [&](const char* key, double& value) {
     if (find(json, key)) read_member(json, key, value);
   };
@@ -256,17 +247,9 @@ EgoMotion motion_of(Json json) {
   read_known("velocity_sigma_mps", motion.velocity_sigma_mps);
   if (find(json, "height_m")) {
     Ground& ground = motion.ground.emplace();
-    read_member_array(json, "up_C", {ground.up_C.data(), 3});
+    read_member(json, "up_C", std::span(ground.up_C.data(), 3));
     read_member(json, "height_m", ground.height_m);
   }
-  return motion;
-}
-
-EgoMotion read_motion(Json json, const char* key) {
-  const Json motion = member(json, key);
-  EgoMotion read;
-  within(fmt::format(".{}", key), [&] { read = motion_of(motion); });
-  return read;
 }
 
 std::vector<Signature> signatures_of(Json json, std::size_t corners) {
@@ -305,7 +288,7 @@ std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
 void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "index", frame.index);
   read_member(json, "t_ns", frame.t_ns);
-  frame.motion = read_motion(json, "told_motion");
+  read_member(json, "told_motion", frame.motion);
   for (const CornerRow& corner : read_columns<CornerRow>(json, "corners")) {
     frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
     frame.verdicts.push_back(corner.verdict);
@@ -316,14 +299,14 @@ void read_layers(Json json, FrameRecord& frame) {
            [&] { frame.signatures = signatures_of(*signatures, frame.corners_px.size()); });
   }
   Layers& layers = frame.layers;
-  layers.normal_edges = read_columns<Edge>(json, "normal_edges");
-  layers.rebel_edges = read_columns<Edge>(json, "rebel_edges");
-  layers.normal_circles = read_columns<Circle>(json, "normal_circles");
-  layers.rebel_circles = read_columns<Circle>(json, "rebel_circles");
-  layers.squares = read_columns<Square>(json, "squares");
-  if (find(json, "gaps")) frame.gaps = read_columns<GapSeen>(json, "gaps");
-  layers.ignored = read_columns<IgnoreRegion>(json, "ignored");
-  layers.collectors = read_columns<Collector>(json, "collectors");
+  read_member(json, "normal_edges", layers.normal_edges);
+  read_member(json, "rebel_edges", layers.rebel_edges);
+  read_member(json, "normal_circles", layers.normal_circles);
+  read_member(json, "rebel_circles", layers.rebel_circles);
+  read_member(json, "squares", layers.squares);
+  if (find(json, "gaps")) read_member(json, "gaps", frame.gaps.emplace());
+  read_member(json, "ignored", layers.ignored);
+  read_member(json, "collectors", layers.collectors);
   layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));
   if (find(json, "masks")) {
     for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
@@ -340,10 +323,10 @@ void read_truth(Json json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
   if (index != frame.index) throw std::runtime_error("index differs from the layers' index");
-  frame.true_motion = read_motion(json, "true_motion");
-  frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
-  frame.object_truth = read_objects(json);
-  if (find(json, "labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
+  read_member(json, "true_motion", frame.true_motion);
+  read_member(json, "corners", frame.corner_truth);
+  frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
+  if (find(json, "labels")) read_member(json, "labels", frame.labels.emplace());
 }
 
 void read_detector(Json json, DetectorInfo& detector) {
@@ -371,7 +354,7 @@ void read_header(Json json, RunInfo& recording) {
     });
   }
   if (find(json, "truth")) read_member(json, "truth", recording.truth);
-  recording.objects = read_columns<sim::Object>(json, "objects");
+  read_member(json, "objects", recording.objects);
 }
 
 // About 100 kB a frame, for hundreds of thousands of frames.
@@ -384,7 +367,7 @@ constexpr input::FileKind kRecordingFile{64 * input::kGibibyte,
 class LineReader {
  public:
   explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {
-    if (parser_.allocate(0, kDeepestJson + 1) != simdjson::SUCCESS) throw std::bad_alloc();
+    if (parser_.allocate(0, files::kDeepestJson + 1) != simdjson::SUCCESS) throw std::bad_alloc();
   }
   template <class Use>
   bool next(Use&& use) {
@@ -397,6 +380,10 @@ class LineReader {
     }
     return true;
   }
+  template <class Use>
+  void require_next(Use&& use, std::string_view otherwise) {
+    if (!next(use)) fail(otherwise);
+  }
   bool skip() { return file_.next_line(text_); }
   [[noreturn]] void fail(std::string_view what) const {
     if (what.starts_with('.')) what.remove_prefix(1);
@@ -408,7 +395,7 @@ class LineReader {
   Json parsed() {
     Json json;
     if (parse().get(json) == simdjson::SUCCESS) return json;
-    text_ = parse_json<nlohmann::json>(text_, file_.here(), kRecordingFile.remedy).dump();
+    text_ = files::parse_json<nlohmann::json>(text_, file_.here(), kRecordingFile.remedy).dump();
     if (const auto error = parse().get(json)) fail(simdjson::error_message(error));
     return json;
   }
@@ -424,12 +411,12 @@ class LineReader {
 
 namespace {
 
+constexpr std::string_view kEmpty = "is empty";
+
 void read_detector_of(const std::filesystem::path& folder, RunInfo& recording) {
   if (!std::filesystem::exists(folder / kDetectorFile)) return;
   LineReader file(folder / kDetectorFile);
-  if (!file.next([&](Json json) { read_detector(json, recording.detector); })) {
-    file.fail("is empty");
-  }
+  file.require_next([&](Json json) { read_detector(json, recording.detector); }, kEmpty);
 }
 
 }  // namespace
@@ -448,15 +435,15 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
     : layers_(std::make_unique<LineReader>(stored(folder, kLayersFile))),
       truth_(std::make_unique<LineReader>(stored(folder, kTruthFile))) {
   input::note_input(folder);
-  if (!truth_->next([&](Json json) { read_header(json, run_); })) truth_->fail("is empty");
+  truth_->require_next([&](Json json) { read_header(json, run_); }, kEmpty);
   read_detector_of(folder, run_);
   run_.warnings = world_warnings(folder);
   if (!std::filesystem::exists(folder / kCameraFile)) return;
   LineReader file(folder / kCameraFile);
-  const bool is_there = file.next([&](Json json) {
+  const auto read_camera = [&](Json json) {
     Intrinsics& camera = run_.camera.emplace();
     read_member(json, "focal_px", camera.focal_px);
-    read_member_array(json, "centre_px", {camera.centre_px.data(), 2});
+    read_member(json, "centre_px", std::span(camera.centre_px.data(), 2));
     for (const auto& [key, side] :
          {std::pair("width_px", &camera.width_px), std::pair("height_px", &camera.height_px)}) {
       read_member(json, key, *side);
@@ -464,8 +451,8 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
         require(*side > 0 && *side <= kLongest_px, "the side of a picture");
       });
     }
-  });
-  if (!is_there) file.fail("is empty");
+  };
+  file.require_next(read_camera, kEmpty);
 }
 
 bool RecordingReader::next(FrameRecord& frame) {
@@ -474,9 +461,7 @@ bool RecordingReader::next(FrameRecord& frame) {
     if (truth_->next([](Json) {})) layers_->fail("ends before the truth does");
     return false;
   }
-  if (!truth_->next([&](Json json) { read_truth(json, frame); })) {
-    truth_->fail("ends before the layers do");
-  }
+  truth_->require_next([&](Json json) { read_truth(json, frame); }, "ends before the layers do");
   return true;
 }
 
@@ -504,7 +489,7 @@ Recording read_recording(const std::filesystem::path& folder) {
 RunInfo read_run_info(const std::filesystem::path& folder) {
   RunInfo run;
   LineReader truth(stored(folder, kTruthFile));
-  if (!truth.next([&](Json json) { read_header(json, run); })) truth.fail("is empty");
+  truth.require_next([&](Json json) { read_header(json, run); }, kEmpty);
   read_detector_of(folder, run);
   return run;
 }
@@ -514,9 +499,7 @@ SeenReader::SeenReader(SeenReader&&) noexcept = default;
 
 SeenReader::SeenReader(const std::filesystem::path& file)
     : lines_(std::make_unique<LineReader>(file)) {
-  if (!lines_->next([&](Json json) { objects_ = read_columns<sim::Object>(json, "objects"); })) {
-    lines_->fail("is empty");
-  }
+  lines_->require_next([&](Json json) { read_member(json, "objects", objects_); }, kEmpty);
 }
 
 const FrameRecord* SeenReader::at(std::int64_t t_ns) {
@@ -525,11 +508,9 @@ const FrameRecord* SeenReader::at(std::int64_t t_ns) {
     const bool is_there = lines_->next([&](Json json) {
       read_member(json, "index", frame.index);
       read_member(json, "t_ns", frame.t_ns);
-      for (const Place& place : read_columns<Place>(json, "corners")) {
-        frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
-      }
-      frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
-      frame.object_truth = read_objects(json);
+      read_member(json, "corners", frame.corners_px);
+      read_member(json, "truth", frame.corner_truth);
+      frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
       if (frame.corner_truth.size() != frame.corners_px.size()) {
         throw std::runtime_error("truth is of another number of corners");
       }
@@ -554,11 +535,12 @@ std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesyst
       continue;
     }
     while (next < frame && truth.skip()) ++next;
-    const bool is_there = truth.next([&](Json json) { objects.push_back(read_objects(json)); });
-    if (!is_there) truth.fail(fmt::format("ends before frame {}", frame));
+    truth.require_next(
+        [&](Json json) { objects.push_back(read_masks<sim::ObjectTruth>(json, "objects", true)); },
+        fmt::format("ends before frame {}", frame));
     ++next;
   }
   return objects;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

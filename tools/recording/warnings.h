@@ -13,18 +13,12 @@
 #include "tools/recording/motion_warnings.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::recording {
 
 inline constexpr const char* kWarningsFile = "warnings.json";
 
 /// The least number of corners in a frame: a match needs neighbouring corners to support it.
 inline constexpr int kFewCorners = 10;
-
-struct Warned {
-  std::string word;                   ///< "warnings.WORD" is the metric
-  std::optional<std::int64_t> count;  ///< absent: not checked in this run
-  std::string text;                   ///< first occurrence and remedy; empty if it did not occur
-};
 
 /// Watches the frames of a run for warnings.
 class WarningWatch {
@@ -59,4 +53,4 @@ std::vector<Warned> read_warnings(const std::filesystem::path& path);
 /// \throws as `read_warnings`.
 std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder);
 
-}  // namespace lcs::bench
+}  // namespace lcs::recording

@@ -70,10 +70,10 @@ bool is_bag(const fs::path& path) {
   });
 }
 
-Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
+Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
   const auto folder = std::make_shared<TemporaryFolder>();
   const fs::path made = folder->path() / "recording";
-  const scenario::Recorded::Topics& topics = asked.topics;
+  const scenario::RecordingSource::Topics& topics = asked.topics;
   std::vector<std::string> arguments{fs::absolute(asked.path).string()};
   if (topics.image.empty()) {
     run_reader(arguments, STDOUT_FILENO, asked.source);
@@ -93,7 +93,7 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   arguments.push_back("--out=" + made.string());
   run_reader(arguments, -1, asked.source);
 
-  scenario::Recorded inner = asked;
+  scenario::RecordingSource inner = asked;
   inner.path = made;
   inner.camera.clear();
   const bool by_imu = topics.poses.empty() && fs::exists(made / "mav0" / "imu0");
@@ -103,8 +103,8 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   Recorded recorded = read_euroc(inner, exact_motion);
   if (by_poses) move_by_poses(inner, true, recorded);
   recorded.keep = folder;
-  bench::read_json(made / "bag.json", kMessages, [&](const bench::JsonNode& json) {
-    json["told"].each([&](const bench::JsonNode& line) { recorded.tally.tell(line.text()); });
+  files::read_json(made / "bag.json", kMessages, [&](const files::JsonNode& json) {
+    json["told"].each([&](const files::JsonNode& line) { recorded.tally.tell(line.text()); });
     if (json.has("bayer")) recorded.format.demosaic = demosaic_of(json["bayer"].text());
     return 0;
   });

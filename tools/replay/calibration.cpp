@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -43,7 +42,7 @@ Value parse(const std::filesystem::path& file) {
   const input::Source top{file.string(), 1};
   Value yaml = input::parse_text(text, top);
   if (yaml.kind != Value::Kind::map) {
-    throw Error(top, fmt::format("this is no map of keys; {}", kCalibrationFile.remedy));
+    throw Error(top, "this is no map of keys; {}", kCalibrationFile.remedy);
   }
   return yaml;
 }
@@ -76,17 +75,16 @@ sim::Pose pose_in(const Value& value, const std::string& path) {
   const std::vector<double> numbers = numbers_in(value, path);
   constexpr std::size_t kRows = 12, kWhole = 16;
   if (numbers.size() != kWhole && numbers.size() != kRows) {
-    throw Error(value.where,
-                fmt::format("{} has {} numbers; give 16, row by row", path, numbers.size()));
+    throw Error(value.where, "{} has {} numbers; give 16, row by row", path, numbers.size());
   }
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(numbers.data());
   const auto R = rotation_of(rows.leftCols<3>());
   const bool is_rigid = numbers.size() == kRows || (numbers[12] == 0 && numbers[13] == 0 &&
                                                     numbers[14] == 0 && numbers[15] == 1);
   if (!R || !is_rigid) {
-    throw Error(value.where, path +
-                                 " is no rigid transform; give a rotation and a translation, "
-                                 "and 0 0 0 1 below");
+    throw Error(value.where,
+                "{} is no rigid transform; give a rotation and a translation, and 0 0 0 1 below",
+                path);
   }
   return {*R, rows.col(3)};
 }
@@ -116,7 +114,7 @@ class Keys {
   }
   double require(const std::string& name) {
     const Value* value = any_of({name.c_str()});
-    if (!value) throw Error(where(), fmt::format("{} is missing; give it", name));
+    if (!value) throw Error(where(), "{} is missing; give it", name);
     return input::as_quantity(*value, path(), kAny);
   }
   std::vector<double> list(std::initializer_list<const char*> names) {
@@ -153,14 +151,13 @@ void set_size(Keys& keys, std::initializer_list<const char*> widths,
 /// \param model a tool's name of a distortion. \throws input::Error for one that is not supported.
 void set_distortion(std::string model, std::vector<double> coefficients, const input::Source& where,
                     Lens& lens) {
-  std::transform(model.begin(), model.end(), model.begin(), [](unsigned char c) {
+  std::ranges::transform(model, model.begin(), [](unsigned char c) {
     return c == '-' ? '_' : static_cast<char>(std::tolower(c));
   });
   const auto is_one_of = [&](std::initializer_list<const char*> names) {
-    return std::find(names.begin(), names.end(), model) != names.end();
+    return std::ranges::find(names, model) != names.end();
   };
-  const bool is_bent =
-      std::any_of(coefficients.begin(), coefficients.end(), [](double k) { return k != 0; });
+  const bool is_bent = std::ranges::any_of(coefficients, [](double k) { return k != 0; });
   const std::size_t count = coefficients.size();
   if (is_one_of({"", "none"})) {
     if (is_bent) {
@@ -171,16 +168,17 @@ void set_distortion(std::string model, std::vector<double> coefficients, const i
   const bool is_fisheye = is_one_of({"equidistant", "fisheye", "kannala_brandt", "kannalabrandt8"});
   if (!is_fisheye &&
       !is_one_of({"radial_tangential", "radtan", "plumb_bob", "rational_polynomial", "pinhole"})) {
-    throw Error(where, fmt::format("the distortion '{}' is not supported; give radtan (plumb_bob), "
-                                   "rational_polynomial, equidistant or none",
-                                   model));
+    throw Error(where,
+                "the distortion '{}' is not supported; give radtan (plumb_bob), "
+                "rational_polynomial, equidistant or none",
+                model);
   }
   if (count == 0 && model == "plumb_bob") return;  // ROS's rectified cameras
   const bool is_known =
       count == 4 || (!is_fisheye && (count == 5 || count == 8 || count == 12 || count == 14));
   if (!is_known) {
-    throw Error(where, fmt::format("the distortion has {} coefficients; give four{}", count,
-                                   is_fisheye ? "" : ", or 5, 8, 12 or 14 as OpenCV has them"));
+    throw Error(where, "the distortion has {} coefficients; give four{}", count,
+                is_fisheye ? "" : ", or 5, 8, 12 or 14 as OpenCV has them");
   }
   lens.distortion =
       is_fisheye ? Lens::Distortion::equidistant : Lens::Distortion::radial_tangential;
@@ -198,8 +196,6 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   const Value* intrinsics = keys.any_of({"intrinsics"});
   if (!intrinsics) return;
   std::vector<double> numbers = numbers_in(*intrinsics, keys.path());
-  Lens& lens = calibration.lens.emplace();
-  lens.source = intrinsics->where;
   const std::string model = keys.text({"camera_model"});
   std::size_t before = 0;
   if (model == "omni") {
@@ -207,23 +203,21 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   } else if (model == "ds") {
     before = 2;
   } else if (model != "" && model != "pinhole") {
-    throw Error(intrinsics->where, fmt::format("the camera_model '{}' is not supported; give a "
-                                               "pinhole, omni or ds",
-                                               model));
+    throw Error(intrinsics->where,
+                "the camera_model '{}' is not supported; give a pinhole, omni or ds", model);
   }
   if (numbers.size() != before + 4) {
-    throw Error(intrinsics->where,
-                fmt::format("intrinsics are {} numbers; give {}fu, fv, cu, cv", numbers.size(),
-                            before == 0   ? ""
-                            : before == 1 ? "xi, "
-                                          : "xi, alpha, "));
+    throw Error(intrinsics->where, "intrinsics are {} numbers; give {}fu, fv, cu, cv",
+                numbers.size(),
+                before == 0   ? ""
+                : before == 1 ? "xi, "
+                              : "xi, alpha, ");
   }
+  Lens& lens = calibration.lens.emplace(
+      pinhole({numbers[before], numbers[before + 1], numbers[before + 2], numbers[before + 3]},
+              intrinsics->where));
   if (before > 0) lens.xi = numbers[0];
   if (before > 1) lens.alpha = numbers[1];
-  lens.fu_px = numbers[before];
-  lens.fv_px = numbers[before + 1];
-  lens.cu_px = numbers[before + 2];
-  lens.cv_px = numbers[before + 3];
   if (const Value* size = keys.any_of({"resolution"})) {
     const std::vector<Value>& pair = input::as_list(*size, keys.path(), 2);
     lens.width_px = static_cast<int>(input::as_integer(pair[0], keys.path(), 1, kMostSide_px));
@@ -241,7 +235,7 @@ void read_camchain(const Value& root, Keys& cameras, const std::string& camera,
   const std::string name = camera.starts_with("cam") ? camera : "cam0";
   const Value* value = cameras.any_of({name.c_str()});
   if (!value) {
-    throw Error(root.where, fmt::format("holds no camera {}; name one of its own (camera)", name));
+    throw Error(root.where, "holds no camera {}; name one of its own (camera)", name);
   }
   Keys keys(*value, name);
   read_listed(keys, calibration);
@@ -259,14 +253,9 @@ void read_camchain(const Value& root, Keys& cameras, const std::string& camera,
 void read_matrix(Keys& keys, const Value& matrix, SensorCalibration& calibration) {
   const std::vector<double> K = numbers_in(matrix, keys.path());
   if (K.size() != 9) {
-    throw Error(matrix.where, fmt::format("the camera's matrix has {} numbers; give 9", K.size()));
+    throw Error(matrix.where, "the camera's matrix has {} numbers; give 9", K.size());
   }
-  Lens& lens = calibration.lens.emplace();
-  lens.source = matrix.where;
-  lens.fu_px = K[0];
-  lens.fv_px = K[4];
-  lens.cu_px = K[2];
-  lens.cv_px = K[5];
+  Lens& lens = calibration.lens.emplace(pinhole({K[0], K[4], K[2], K[5]}, matrix.where));
   set_size(keys, {"image_width", "image_Width", "width"},
            {"image_height", "image_Height", "height"}, lens);
   const std::vector<double> coefficients =
@@ -287,12 +276,8 @@ void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& cal
   const auto optional = [&](const char* name) {
     return keys.number({(prefix + name).c_str()}).value_or(0);
   };
-  Lens& lens = calibration.lens.emplace();
-  lens.source = keys.where();
-  lens.fu_px = number("fx");
-  lens.fv_px = number("fy");
-  lens.cu_px = number("cx");
-  lens.cv_px = number("cy");
+  Lens& lens = calibration.lens.emplace(
+      pinhole({number("fx"), number("fy"), number("cx"), number("cy")}, keys.where()));
   set_size(keys, {"Camera.width"}, {"Camera.height"}, lens);
   const std::string type = keys.text({"Camera.type"});
   if (type == "KannalaBrandt8") {
@@ -303,9 +288,9 @@ void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& cal
                    {optional("k1"), optional("k2"), optional("p1"), optional("p2"), optional("k3")},
                    keys.where(), lens);
   } else if (type != "Rectified") {
-    throw Error(keys.where(), fmt::format("the Camera.type '{}' is not supported; give PinHole, "
-                                          "KannalaBrandt8 or Rectified",
-                                          type));
+    throw Error(keys.where(),
+                "the Camera.type '{}' is not supported; give PinHole, KannalaBrandt8 or Rectified",
+                type);
   }
   if (prefix == "Camera2.") return;  // its place is beside Camera1
   calibration.T_BS = keys.pose({"IMU.T_b_c1", "Tbc"});
@@ -315,7 +300,7 @@ void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& cal
 void read_camodocal(Keys& keys, const std::string& type, SensorCalibration& calibration) {
   const auto part = [&](const char* name) {
     const Value* value = keys.any_of({name});
-    if (!value) throw Error(keys.where(), fmt::format("{} is missing; give it", name));
+    if (!value) throw Error(keys.where(), "{} is missing; give it", name);
     return Keys(*value, name);
   };
   Lens& lens = calibration.lens.emplace();
@@ -349,9 +334,8 @@ void read_camodocal(Keys& keys, const std::string& type, SensorCalibration& cali
                     projection.require("k5")},
                    keys.where(), lens);
   } else {
-    throw Error(keys.where(), fmt::format("the model_type '{}' is not supported; give PINHOLE, MEI "
-                                          "or KANNALA_BRANDT",
-                                          type));
+    throw Error(keys.where(),
+                "the model_type '{}' is not supported; give PINHOLE, MEI or KANNALA_BRANDT", type);
   }
 }
 
@@ -378,7 +362,7 @@ std::optional<scenario::ImuNoise> read_noise(Keys& keys) {
     }
   }
   if (count == 0) return std::nullopt;
-  if (missing) throw Error(keys.where(), fmt::format("{} is missing; give all four", missing));
+  if (missing) throw Error(keys.where(), "{} is missing; give all four", missing);
   return noise;
 }
 
@@ -404,9 +388,9 @@ SensorCalibration read(const std::filesystem::path& file, const std::string& cam
   } else if (own_file) {
     if (is_named) {
       throw Error(own_file->where,
-                  fmt::format("{} names a further calibration, and this one is itself named by a "
-                              "calibration; name the camera's own file there",
-                              its_file));
+                  "{} names a further calibration, and this one is itself named by a calibration; "
+                  "name the camera's own file there",
+                  its_file);
     }
     const std::string name = input::as_text(*own_file, its_file);
     calibration.lens = read(file.parent_path() / name, "", true).lens;
@@ -427,8 +411,8 @@ SensorCalibration read(const std::filesystem::path& file, const std::string& cam
     read_listed(keys, calibration);
   }
   if (!calibration.lens && !calibration.noise && !calibration.T_BS && !calibration.rate_hz) {
-    throw Error({file.string(), 1},
-                fmt::format("holds no calibration that is known; {}", kCalibrationFile.remedy));
+    throw Error({file.string(), 1}, "holds no calibration that is known; {}",
+                kCalibrationFile.remedy);
   }
   return calibration;
 }

@@ -27,7 +27,7 @@ constexpr const char* kOutsideOfPoses = "pictures are outside of the poses' time
 constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
 
 /// \return whether the frames' times are known, not only their order.
-bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
+bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
   if (asked.times) {
     time_by_table(*asked.times, asked.time_unit, recorded);
     return true;
@@ -49,7 +49,7 @@ bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
 }
 
 /// Keeps the requested frames.
-void choose(const scenario::Recorded& asked, int most, std::vector<RecordedFrame>& frames) {
+void choose(const scenario::RecordingSource& asked, int most, std::vector<RecordedFrame>& frames) {
   const auto every = static_cast<std::size_t>(asked.every);
   std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
   if (most > 0 && frames.size() > static_cast<std::size_t>(most)) {
@@ -57,21 +57,14 @@ void choose(const scenario::Recorded& asked, int most, std::vector<RecordedFrame
   }
 }
 
-void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
-  auto& frames = recorded.frames;
-  const auto first =
-      std::ranges::find_if(frames, [&](const auto& frame) { return frame.number >= poses; });
-  if (first == frames.end()) return;
-  recorded.tally.add("pictures have no pose and are left out", first->name(),
-                     static_cast<int>(frames.end() - first));
-  std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
-}
-
 /// Line k belongs to picture k; pictures without a line are left out.
 std::vector<PosesMotion::CameraPose> poses_by_line(const PosesFile& file, Recorded& recorded) {
-  leave_out_without_pose(file.lines.size(), recorded);
   std::vector<PosesMotion::CameraPose> poses;
   std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
+    if (frame.number >= file.lines.size()) {
+      recorded.tally.add("pictures have no pose and are left out", frame.name());
+      return true;
+    }
     const auto& line = file.lines[frame.number];
     if (line) poses.push_back({line->t_ns.value_or(frame.t_ns), line->T_WC});
     if (line) frame.t_ns = poses.back().t_ns;
@@ -105,19 +98,10 @@ std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool o
   return poses;
 }
 
-/// The pose of the camera on the body or the IMU, if a calibration or a mount states it.
-std::optional<sim::Pose> camera_on_body(const scenario::Recorded& asked) {
-  if (asked.mount_rpy_rad) {
-    return sim::Pose{camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
-  }
-  if (!asked.calibration) return std::nullopt;
-  return read_calibration(*asked.calibration, asked.camera).T_BS;
-}
-
 /// Turns poses of the body into poses of the camera.
-void join_camera(const scenario::Recorded& asked, PosesFile& file, const Recorded& recorded) {
-  std::optional<sim::Pose> T_BC = camera_on_body(asked);
-  if (!T_BC) T_BC = recorded.T_BC;
+void join_camera(const scenario::RecordingSource& asked, PosesFile& file,
+                 const Recorded& recorded) {
+  const std::optional<sim::Pose> T_BC = camera_on_body(asked, recorded.T_BC);
   if (!T_BC) {
     throw input::Error({asked.poses->string(), 0},
                        "its poses are the body's (p_RS_R_x); give the camera's place on it, "
@@ -130,7 +114,7 @@ void join_camera(const scenario::Recorded& asked, PosesFile& file, const Recorde
 
 /// Removes biases and tilt by a given or detected time at rest. A non-zero start speed rules out an
 /// undeclared one.
-void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings,
+void calibrate_at_rest(const scenario::RecordingSource& asked, SensorReadings& readings,
                        sim::Calibration& calibration, Tally& tally) {
   if (!asked.at_rest_s && asked.speed_mps.value_or(0) != 0) return;
   const auto rest = rest_at_start(readings.imu, asked.at_rest_s, calibration.gravity_mps2);
@@ -163,7 +147,7 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs:
                      up.x(), up.y(), up.z());
 }
 
-void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
+void move_by_imu(const scenario::RecordingSource& asked, Recorded& recorded) {
   SensorReadings readings;
   const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
   readings.imu = read_imu_csv(*asked.imu, of_imu, recorded.tally);
@@ -177,7 +161,7 @@ void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
 }
 
 /// \param is_told whether the layout told already which of its motion's inputs it lacks.
-void set_motion(const scenario::Recorded& asked, bool times_known, bool is_told,
+void set_motion(const scenario::RecordingSource& asked, bool times_known, bool is_told,
                 Recorded& recorded) {
   if (asked.poses) {
     move_by_poses(asked, times_known, recorded);
@@ -206,7 +190,7 @@ void require_lens(const Lens& lens) {
                      lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px);
 }
 
-void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
+void set_lens(const scenario::RecordingSource& asked, Recorded& recorded) {
   if (asked.calibration) {
     recorded.lens = read_calibration(*asked.calibration, asked.camera).lens;
     if (!recorded.lens) {
@@ -251,8 +235,8 @@ std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
       const auto made = sequence::read_settings(folder / sequence::kSettingsFile).scenario;
       return stated(made.origin, made.name);
     }
-    if (std::error_code none; fs::exists(bench::stored(folder, bench::kLayersFile), none)) {
-      const bench::RunInfo run = bench::read_run_info(folder);
+    if (std::error_code none; fs::exists(recording::stored(folder, recording::kLayersFile), none)) {
+      const recording::RunInfo run = recording::read_run_info(folder);
       return stated(run.origin, run.scenario);
     }
   }
@@ -261,7 +245,17 @@ std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
 
 }  // namespace
 
-void take_time_offset(const scenario::Recorded& asked, Recorded& recorded) {
+std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
+                                        const std::optional<sim::Pose>& otherwise) {
+  if (asked.mount_rpy_rad) {
+    return sim::Pose{camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
+  }
+  if (!asked.calibration) return otherwise;
+  const auto stated = read_calibration(*asked.calibration, asked.camera).T_BS;
+  return stated ? stated : otherwise;
+}
+
+void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded) {
   std::optional<double> offset_s = asked.time_offset_s;
   if (!offset_s && asked.calibration) {
     offset_s = read_calibration(*asked.calibration, asked.camera).time_offset_s;
@@ -271,19 +265,17 @@ void take_time_offset(const scenario::Recorded& asked, Recorded& recorded) {
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += offset_ns;
 }
 
-void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
+void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Recorded& recorded) {
   PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);
   if (file.of_body) join_camera(asked, file, recorded);
   const bool by_line = !file.timed || !times_known;
   if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
-  if (!times_known) {
-    if (file.lines.size() != recorded.frames.size()) {
-      recorded.lacks.push_back(
-          fmt::format("which of {} poses belong to its {} pictures (fps, if the first pose belongs "
-                      "to the first picture)",
-                      file.lines.size(), recorded.frames.size()));
-      return;
-    }
+  if (!times_known && file.lines.size() != recorded.frames.size()) {
+    recorded.lacks.push_back(
+        fmt::format("which of {} poses belong to its {} pictures (fps, if the first pose belongs "
+                    "to the first picture)",
+                    file.lines.size(), recorded.frames.size()));
+    return;
   }
   auto poses = file.numbered ? poses_by_number(file, recorded)
                : by_line     ? poses_by_line(file, recorded)
@@ -296,7 +288,7 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   move_along(std::move(poses), level, asked, *asked.poses, kOutsideOfPoses, recorded);
 }
 
-void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
+void move_by_timed_poses(const scenario::RecordingSource& asked, const fs::path& file,
                          const Vector3d& up_W, Recorded& recorded) {
   const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
   if (!poses.timed) {
@@ -307,20 +299,24 @@ void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
 }
 
 void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<Vector3d>& level,
-                const scenario::Recorded& asked, const fs::path& file, const char* outside,
+                const scenario::RecordingSource& asked, const fs::path& file, const char* outside,
                 Recorded& recorded) {
   if (poses.empty()) {
     throw input::Error({file.string(), 0},
                        "none of the poses belongs to a picture; give a line for each picture");
   }
   sort_by_time(poses, "poses", file.string(), recorded.tally);
-  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
+  std::optional<Vector3d> up_W = level;
+  // The vehicle on which the camera is mounted is upright at the first pose.
+  if (asked.mount_rpy_rad) {
+    up_W = poses.front().T_WC.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
+  }
   auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
   keep_within(motion->first_ns(), motion->last_ns(), outside, recorded);
   recorded.motion = std::move(motion);
 }
 
-void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
+void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
                       SensorReadings readings, Recorded& recorded) {
   recorded.settings.odometry.enabled = !readings.odometry.empty();
   take_imu_noise(asked, recorded);
@@ -335,7 +331,7 @@ void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
   begin_at(start_ns, readings);
   sim::Calibration calibration;
-  const auto T_BC = asked.calibration ? camera_on_body(asked) : std::nullopt;
+  const auto T_BC = asked.calibration ? camera_on_body(asked, {}) : std::nullopt;
   calibration.T_BC.R =
       T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
   if (T_BC && !asked.mount_rpy_rad) {
@@ -352,7 +348,7 @@ void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }
 
-void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded) {
+void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) {
   if (!asked.imu_calibration && recorded.settings.imu.noise == scenario::ImuNoise{}) {
     recorded.tally.tell("the noise of the IMU is not stated, and counts as none: imu_calibration");
   }
@@ -379,7 +375,7 @@ void time_by(double fps, Recorded& recorded) {
 }
 
 /// The properties of the pictures, with the user's in place of those that they show.
-void set_format(const scenario::Recorded& asked, Recorded& recorded) {
+void set_format(const scenario::RecordingSource& asked, Recorded& recorded) {
   std::vector<fs::path> files;
   for (const RecordedFrame& frame : recorded.frames) files.push_back(frame.picture);
   if (recorded.video.empty()) {
@@ -397,7 +393,7 @@ void set_format(const scenario::Recorded& asked, Recorded& recorded) {
 }
 
 Recorded read_recorded(const scenario::Scenario& scenario) {
-  const scenario::Recorded& asked = scenario.recording.value();
+  const scenario::RecordingSource& asked = scenario.recording.value();
   Recorded recorded =
       layout_of(asked).read(asked, scenario.ego_motion == scenario::EgoMotionSource::truth);
   recorded.settings.origin = origin_of(asked.path);

@@ -38,7 +38,7 @@ SensorCalibration calibration_in(const fs::path& sensor) {
 
 /// EuRoC's tables have ns, unless something else is stated.
 TableTimes times_of(const fs::path& sensor, const SensorCalibration& calibration,
-                    const scenario::Recorded& asked, double least_hz, double most_hz) {
+                    const scenario::RecordingSource& asked, double least_hz, double most_hz) {
   return {asked.time_unit,
           {least_hz, most_hz, calibration.rate_hz, (sensor / "sensor.yaml").string()},
           kNanosecond_ns};
@@ -56,7 +56,7 @@ void read_frames(const fs::path& camera, const TableTimes& times, Recorded& reco
 /// Start of dead reckoning, with the biases known there.
 struct Start {
   std::int64_t t_ns = 0;
-  sim::Pose T_WS;
+  Eigen::Matrix3d R_WS = Eigen::Matrix3d::Identity();
   Vector3d v_WS_mps = Vector3d::Zero();
   Vector3d gyro_bias_radps = Vector3d::Zero();
   Vector3d accel_bias_mps2 = Vector3d::Zero();
@@ -69,11 +69,7 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
   const auto first = std::ranges::lower_bound(imu, t_ns, {}, &sim::ImuSample::t_ns);
   if (const auto rest = rest_at_start({first, imu.end()}, at_rest_s, kGravity_mps2)) {
     tell_rest(*rest, tally);
-    return {t_ns,
-            {rest->R_WS, Vector3d::Zero()},
-            Vector3d::Zero(),
-            rest->gyro_bias_radps,
-            rest->accel_bias_mps2};
+    return {t_ns, rest->R_WS, Vector3d::Zero(), rest->gyro_bias_radps, rest->accel_bias_mps2};
   }
   Vector3d up = Vector3d::Zero(), turning = Vector3d::Zero();
   int count = 0;
@@ -88,21 +84,16 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
         "the IMU has no reading at the first picture; give both the times of one clock");
   tally.add("recordings have no truth to start from: at rest, upright as the accelerometer says",
             fmt::format("{} readings", count));
-  Start start;
-  start.t_ns = t_ns;
-  start.T_WS.R = sim::least_rotation(up, Vector3d::UnitZ()).normalized().toRotationMatrix();
-  start.gyro_bias_radps = turning / count;
-  return start;
+  return {.t_ns = t_ns,
+          .R_WS = sim::least_rotation(up, Vector3d::UnitZ()).normalized().toRotationMatrix(),
+          .gyro_bias_radps = turning / count};
 }
 
 Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
   const auto at = std::ranges::lower_bound(truth, t_ns, {}, &TrueState::t_ns);
   const TrueState& state = at == truth.end() ? truth.back() : *at;
-  return {state.t_ns,
-          {state.state.q_WB.toRotationMatrix(), Vector3d::Zero()},
-          state.state.v_WB_mps,
-          state.gyro_bias_radps,
-          state.accel_bias_mps2};
+  return {state.t_ns, state.state.q_WB.toRotationMatrix(), state.state.v_WB_mps,
+          state.gyro_bias_radps, state.accel_bias_mps2};
 }
 
 /// A generated sequence repeats `lcs.json` in each sensor.yaml for other readers. Throws if an edit
@@ -199,7 +190,7 @@ void move_as_run(const fs::path& mav, const std::string& camera,
 
 /// The camera of a generated rig by its folder or its name in the scenario; if none is asked for,
 /// the run's camera. Puts its lens and pose into the settings. \return its folder.
-std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySettings& exact) {
+std::string choose_camera(const scenario::RecordingSource& asked, sequence::ReplaySettings& exact) {
   std::string names;
   for (std::size_t place = 0; place < exact.cameras.size(); ++place) {
     const sequence::ReplaySettings::Camera& one = exact.cameras[place];
@@ -216,7 +207,7 @@ std::string choose_camera(const scenario::Recorded& asked, sequence::ReplaySetti
                      asked.camera, names);
 }
 
-std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recorded& asked,
+std::vector<TrueState> read_truth(const fs::path& mav, const scenario::RecordingSource& asked,
                                   Tally& tally) {
   constexpr double kSlowest_hz = 1, kFastest_hz = 990;
   for (const char* name : {kTruthFolder, kMotionCapture}) {
@@ -239,7 +230,7 @@ void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>&
     const double since_s = 1e-9 * static_cast<double>(sample.t_ns - start.t_ns);
     if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
   }
-  if ((start.T_WS.R * force_S).z() >= 0) return;
+  if ((start.R_WS * force_S).z() >= 0) return;
   throw input::Error({file.string(), 0},
                      "by the attitude of the truth its accelerations point down, and at rest they "
                      "must point up; change their sign");
@@ -248,7 +239,7 @@ void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>&
 /// Sets the motion from EuRoC's own files. The body frame is B.
 /// \param T_BC_known pose of the camera, if anything states it.
 void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_known,
-                   bool exact_motion, const scenario::Recorded& asked, Recorded& recorded) {
+                   bool exact_motion, const scenario::RecordingSource& asked, Recorded& recorded) {
   if (!T_BC_known) {
     recorded.lacks.emplace_back(
         "where the camera is on the IMU (T_BS or T_cam_imu in a calibration, or mount)");
@@ -287,10 +278,9 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
                           ? start_at_rest(readings.imu, first_ns, asked.at_rest_s, recorded.tally)
                           : start_by_truth(truth, first_ns);
   if (!truth.empty()) require_gravity_down(start, readings.imu, imu_file);
-  calibration.T_WB_start.R = start.T_WS.R;
+  calibration.T_WB_start.R = start.R_WS;
   calibration.v_WB_start_mps = start.v_WS_mps;
-  if (fs::exists(mav / "odometry0" / "data.csv")) {
-    const fs::path file = mav / "odometry0" / "data.csv";
+  if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
     readings.odometry = read_odometry_csv(file, times, recorded.tally);
     const sim::Pose T_BO = calibration_in(mav / "odometry0").T_BS.value_or(sim::Pose{});
     for (sim::OdometrySample& sample : readings.odometry) {
@@ -320,7 +310,7 @@ bool is_euroc(const fs::path& folder) {
   return fs::exists(camera / "data.csv") || fs::is_directory(camera / "data");
 }
 
-Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
+Recorded read_euroc(const scenario::RecordingSource& asked, bool exact_motion) {
   const fs::path mav = mav_of(asked.path);
   const fs::path settings_file = asked.path / sequence::kSettingsFile;
   std::optional<sequence::ReplaySettings> exact;
@@ -359,13 +349,7 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   recorded.lens = sensor.lens;
   recorded.T_BC = sensor.T_BS;
   if (motion_is_asked(asked)) return recorded;
-  std::optional<sim::Pose> T_BC = sensor.T_BS;
-  if (asked.calibration) {
-    const auto T_BC_asked = read_calibration(*asked.calibration, camera).T_BS;
-    if (T_BC_asked) T_BC = T_BC_asked;
-  }
-  if (asked.mount_rpy_rad) T_BC = {camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
-  move_by_files(mav, T_BC, exact_motion, asked, recorded);
+  move_by_files(mav, camera_on_body(asked, sensor.T_BS), exact_motion, asked, recorded);
   return recorded;
 }
 

@@ -1,7 +1,5 @@
 #include "tools/replay/recorded.h"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <optional>
 
@@ -13,10 +11,6 @@ namespace {
 
 using RowOfPicture = std::map<std::string, const TextTable::Row*>;
 
-std::string file_name(std::string_view path) {
-  return fs::path(path).filename().string();
-}
-
 /// The rows by the names in a column; empty unless most rows name one of the pictures, with or
 /// without its ending.
 RowOfPicture rows_by_name(const TextTable& table, std::size_t column,
@@ -24,7 +18,7 @@ RowOfPicture rows_by_name(const TextTable& table, std::size_t column,
   RowOfPicture rows;
   std::size_t found = 0;
   for (const TextTable::Row& row : table.rows) {
-    const std::string name = file_name(TextTable::field(row, column));
+    const std::string name = fs::path(TextTable::field(row, column)).filename().string();
     const auto stem = name_of_stem.find(name);
     const bool is_stem = stem != name_of_stem.end();
     const std::string whole = is_stem ? stem->second : name;
@@ -37,7 +31,7 @@ RowOfPicture rows_by_name(const TextTable& table, std::size_t column,
 bool is_count(const TextTable& table, std::size_t column) {
   std::optional<long> before;
   for (const TextTable::Row& row : table.rows) {
-    const auto number = bench::number_in<long>(TextTable::field(row, column));
+    const auto number = files::number_in<long>(TextTable::field(row, column));
     if (!number || (before && *number != *before + 1)) return false;
     before = number;
   }
@@ -49,7 +43,7 @@ std::size_t time_column(const TextTable& table, std::optional<std::size_t> names
   if (const auto named = table.time_column()) return *named;
   for (std::size_t i = 0; i < columns; ++i) {
     const bool is_number =
-        bench::number_in<double>(TextTable::field(table.rows.front(), i)).has_value();
+        files::number_in<double>(TextTable::field(table.rows.front(), i)).has_value();
     if (i != names && is_number && (columns == 1 || !is_count(table, i))) return i;
   }
   if (names) return *names;  // names that are times

@@ -12,11 +12,11 @@ namespace lcs::replay {
 namespace {
 
 constexpr input::FileKind kCalibration{input::kMebibyte, "give the file as KITTI has it"};
-constexpr std::size_t kProjection = 12;
+constexpr std::size_t kRows = 12;  // numbers of three rows of a matrix
 
 }  // namespace
 
-std::string kitti_camera(const scenario::Recorded& asked, std::span<const char* const> names,
+std::string kitti_camera(const scenario::RecordingSource& asked, std::span<const char* const> names,
                          const char* otherwise) {
   if (!asked.camera.empty()) return asked.camera;
   for (const char* name : names) {
@@ -29,11 +29,11 @@ KittiCalibration::KittiCalibration(const fs::path& file) : file_(file) {
   input::InputFile input(file, kCalibration);
   int unnamed = 0;
   for (std::string line; input.next_line(line);) {
-    if (bench::trimmed(line).empty()) continue;
-    const std::string_view text = bench::trimmed(line);
+    if (files::trimmed(line).empty()) continue;
+    const std::string_view text = files::trimmed(line);
     const std::size_t end = text.find_first_of(": ");  // KITTI tracking names some without a colon
     const bool is_named =
-        end != text.npos && !bench::number_in<double>(text.substr(0, end)).has_value();
+        end != text.npos && !files::number_in<double>(text.substr(0, end)).has_value();
     std::istringstream words{std::string(is_named ? text.substr(end + 1) : text)};
     std::vector<double>& numbers =
         values_[is_named ? std::string(text.substr(0, end)) : fmt::format("P{}", unnamed++)];
@@ -61,7 +61,6 @@ Eigen::Matrix3d KittiCalibration::rotation(const std::string& name) const {
 }
 
 sim::Pose KittiCalibration::pose(const std::string& name) const {
-  constexpr std::size_t kRows = 12;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(
       numbers(name, kRows).data());
   const auto R = rotation_of(rows.leftCols<3>());
@@ -76,13 +75,8 @@ sim::Pose KittiCalibration::pose() const {
 }
 
 Lens KittiCalibration::lens(const std::string& name) const {
-  const std::vector<double>& P = numbers(name, kProjection);
-  Lens lens;
-  lens.fu_px = P[0];
-  lens.fv_px = P[5];
-  lens.cu_px = P[2];
-  lens.cv_px = P[6];
-  lens.source = {file_.string(), 0};
+  const std::vector<double>& P = numbers(name, kRows);
+  Lens lens = pinhole({P[0], P[5], P[2], P[6]}, {file_.string(), 0});
   constexpr std::string_view kRectified = "P_rect_";
   if (!name.starts_with(kRectified)) return lens;
   const std::string size = "S_rect_" + name.substr(kRectified.size());
@@ -94,7 +88,7 @@ Lens KittiCalibration::lens(const std::string& name) const {
 }
 
 sim::Pose KittiCalibration::beside(const std::string& name) const {
-  const std::vector<double>& P = numbers(name, kProjection);
+  const std::vector<double>& P = numbers(name, kRows);
   return {Eigen::Matrix3d::Identity(), {P[3] / P[0], P[7] / P[5], P[11]}};
 }
 

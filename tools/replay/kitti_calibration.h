@@ -15,7 +15,7 @@
 namespace lcs::replay {
 
 /// The asked camera, or else the first of the names that is a folder, or else `otherwise`.
-std::string kitti_camera(const scenario::Recorded& asked, std::span<const char* const> names,
+std::string kitti_camera(const scenario::RecordingSource& asked, std::span<const char* const> names,
                          const char* otherwise);
 
 class KittiCalibration {

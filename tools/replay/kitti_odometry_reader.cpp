@@ -18,21 +18,17 @@ constexpr std::string_view kPrefix = "image_";
 /// Line k belongs to picture k.
 void read_times(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file);
-  std::vector<RecordedFrame> timed;
-  for (const RecordedFrame& frame : recorded.frames) {
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
     if (frame.number >= table.rows.size()) {
-      recorded.tally.add("pictures have no time and are left out",
-                         frame.picture.filename().string());
-      continue;
+      recorded.tally.add("pictures have no time and are left out", frame.name());
+      return true;
     }
     const TextTable::Row& row = table.rows[frame.number];
-    if (const auto t_ns = time_in(row.fields.front(), kSecond_ns)) {
-      timed.push_back({*t_ns, frame.picture, frame.number});
-    } else {
-      recorded.tally.add("rows cannot be read and are left out", table.at(row));
-    }
-  }
-  recorded.frames = std::move(timed);
+    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
+    if (!t_ns) recorded.tally.add("rows cannot be read and are left out", table.at(row));
+    frame.t_ns = t_ns.value_or(0);
+    return !t_ns;
+  });
   put_in_order(recorded.frames, file, recorded.tally);
 }
 
@@ -48,8 +44,8 @@ fs::path poses_of(const fs::path& folder) {
 }
 
 /// Line k is the pose of camera 0 at picture k; y of its world frame points down.
-void read_motion(const scenario::Recorded& asked, const fs::path& file, const sim::Pose& T_C0C,
-                 Recorded& recorded) {
+void read_motion(const scenario::RecordingSource& asked, const fs::path& file,
+                 const sim::Pose& T_C0C, Recorded& recorded) {
   const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
   std::vector<PosesMotion::CameraPose> at_frames;
   for (const RecordedFrame& frame : recorded.frames) {
@@ -68,7 +64,7 @@ bool is_kitti_odometry(const fs::path& folder) {
   return any && fs::exists(folder / "calib.txt");
 }
 
-Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
+Recorded read_kitti_odometry(const scenario::RecordingSource& asked, bool) {
   const std::string camera = kitti_camera(asked, kOdometryCameras, "");
   if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
     throw input::Error(asked.source, "{} is not there; name a camera, as image_0",

@@ -39,14 +39,13 @@ std::optional<NavigationState> state_in(std::istream& words) {
   enum Column : std::size_t { kRoll = 3, kPitch, kYaw, kNorth, kEast, kUp = 10 };
   std::vector<double> numbers;
   for (std::string word; words >> word;) {
-    if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
+    if (const auto number = files::number_in<double>(word)) numbers.push_back(*number);
   }
-  if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
-    return std::nullopt;
-  }
-  return NavigationState{0,
-                         sim::quaternion_of_rpy({numbers[kRoll], numbers[kPitch], numbers[kYaw]}),
-                         {numbers[kEast], numbers[kNorth], numbers[kUp]}};
+  if (numbers.size() != kNumbers) return std::nullopt;
+  const Vector3d v_mps(numbers[kEast], numbers[kNorth], numbers[kUp]);
+  if (!is_speed(v_mps)) return std::nullopt;
+  return NavigationState{
+      0, sim::quaternion_of_rpy({numbers[kRoll], numbers[kPitch], numbers[kYaw]}), v_mps};
 }
 
 /// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; world frame east, north, up.
@@ -82,25 +81,19 @@ sim::Pose T_BC_of(const KittiCalibration& cameras, const std::string& projection
   return (cameras.beside(projection) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
 }
 
-struct Camera {
-  Lens lens;
-  sim::Pose T_BC;
-};
-
-/// Calibration of the rectified pictures ("sync"): P_rect is [K | K t] of the camera, in the
-/// rectified frame of camera 0.
-std::optional<Camera> camera_of_calibration(const fs::path& drive, const std::string& number) {
+/// Takes the calibration of the rectified pictures ("sync"), if there is one: P_rect is [K | K t]
+/// of the camera, in the rectified frame of camera 0.
+void take_calibration(const fs::path& drive, const std::string& number, std::optional<Lens>& lens,
+                      sim::Pose& T_BC) {
   for (const fs::path& folder : {drive, fs::absolute(drive / "..").lexically_normal()}) {
     if (!fs::exists(folder / "calib_cam_to_cam.txt")) continue;
     const KittiCalibration cameras(folder / "calib_cam_to_cam.txt");
-    Camera camera;
-    camera.lens = cameras.lens("P_rect_" + number);
-    camera.T_BC = T_BC_of(cameras, "P_rect_" + number, "R_rect_00",
-                          KittiCalibration(folder / "calib_velo_to_cam.txt").pose(),
-                          KittiCalibration(folder / "calib_imu_to_velo.txt").pose());
-    return camera;
+    lens = cameras.lens("P_rect_" + number);
+    T_BC = T_BC_of(cameras, "P_rect_" + number, "R_rect_00",
+                   KittiCalibration(folder / "calib_velo_to_cam.txt").pose(),
+                   KittiCalibration(folder / "calib_imu_to_velo.txt").pose());
+    return;
   }
-  return std::nullopt;
 }
 
 constexpr const char* kDriveCameras[] = {"image_02", "image_00", "image_03", "image_01"};
@@ -124,13 +117,13 @@ void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded
 }  // namespace
 
 bool is_kitti(const fs::path& folder) {
-  scenario::Recorded asked;
+  scenario::RecordingSource asked;
   asked.path = folder;
   return fs::is_directory(folder / "oxts" / "data") &&
          fs::is_directory(folder / kitti_camera(asked, kDriveCameras, "image_02"));
 }
 
-Recorded read_kitti(const scenario::Recorded& asked, bool) {
+Recorded read_kitti(const scenario::RecordingSource& asked, bool) {
   const std::string name = kitti_camera(asked, kDriveCameras, "image_02");
   const fs::path camera_folder = asked.path / name;
   if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
@@ -146,10 +139,7 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   }
   take_frames(clock, camera_folder / "data", recorded);
   sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
-  if (const auto camera = camera_of_calibration(asked.path, name.substr(name.find('_') + 1))) {
-    recorded.lens = camera->lens;
-    T_BC = camera->T_BC;
-  }
+  take_calibration(asked.path, name.substr(name.find('_') + 1), recorded.lens, T_BC);
   if (motion_is_asked(asked)) return recorded;
   move_by_navigation(read_oxts(asked.path / "oxts", recorded.tally), T_BC, recorded);
   return recorded;
@@ -197,7 +187,7 @@ bool is_kitti_tracking(const fs::path& folder) {
   return fs::is_directory(folder) && tracked_in(folder).has_value();
 }
 
-Recorded read_kitti_tracking(const scenario::Recorded& asked, bool) {
+Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
   const std::optional<Tracked> sequence = tracked_in(asked.path);
   if (!sequence) {
     throw input::Error(
@@ -247,7 +237,7 @@ bool is_kitti_360(const fs::path& folder) {
   return fs::is_directory(rectified_in(folder, ""));
 }
 
-Recorded read_kitti_360(const scenario::Recorded& asked, bool) {
+Recorded read_kitti_360(const scenario::RecordingSource& asked, bool) {
   const std::string camera = asked.camera.empty() ? "image_00" : asked.camera;
   const fs::path pictures = rectified_in(asked.path, camera);
   if (!fs::is_directory(pictures)) {
@@ -271,7 +261,7 @@ Recorded read_kitti_360(const scenario::Recorded& asked, bool) {
         fmt::format("how {} moved (poses; {} is of image_00)", camera, poses.string()));
     return recorded;
   }
-  scenario::Recorded by_poses = asked;
+  scenario::RecordingSource by_poses = asked;
   by_poses.poses = poses;
   move_by_poses(by_poses, true, recorded);
   return recorded;

@@ -19,8 +19,8 @@ namespace lcs::replay {
 using Eigen::Vector3d;
 
 /// Whether a vehicle can have this velocity; larger values come from a corrupt file.
-inline bool is_speed(double x_mps, double y_mps, double z_mps) {
-  return Vector3d(x_mps, y_mps, z_mps).norm() <= kMostSpeed_mps;
+inline bool is_speed(const Vector3d& v_mps) {
+  return v_mps.norm() <= kMostSpeed_mps;
 }
 
 /// R_BC of a camera mounted by roll, pitch and yaw about the fixed axes of B (x ahead, y left, z

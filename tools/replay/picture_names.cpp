@@ -15,8 +15,6 @@
 namespace lcs::replay {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A number of any size: digits without leading zeros, and those behind a point.
 struct Number {
   std::string whole, fraction;
@@ -24,9 +22,8 @@ struct Number {
   std::string text() const { return fraction.empty() ? whole : whole + "." + fraction; }
   bool operator==(const Number&) const = default;
   bool operator<(const Number& other) const {
-    return std::tuple(whole.size(), std::string_view(whole), std::string_view(fraction)) <
-           std::tuple(other.whole.size(), std::string_view(other.whole),
-                      std::string_view(other.fraction));
+    return std::forward_as_tuple(whole.size(), whole, fraction) <
+           std::forward_as_tuple(other.whole.size(), other.whole, other.fraction);
   }
 };
 

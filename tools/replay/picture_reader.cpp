@@ -10,11 +10,10 @@
 #include <utility>
 
 #include "sim/pictures/picture_file.h"
+#include "tools/output/video.h"
 
 namespace lcs::replay {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// \return a picture of 8 or 16 bits. \throws input::Error
 cv::Mat decode(const fs::path& file, bool is_raw) {
@@ -51,7 +50,31 @@ int demosaic_of(const std::string& pattern) {
   return kPatterns.at(pattern);
 }
 
-std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
+PictureReader::PictureReader(const PictureFormat& format, const fs::path& video)
+    : format_(format), video_(video) {
+  if (!video_.empty()) capture_ = output::open_video(video_);
+}
+
+std::optional<cv::Mat3b> PictureReader::read(const RecordedFrame& frame) {
+  return video_.empty() ? read_file(frame.picture) : read_video(frame);
+}
+
+std::optional<cv::Mat3b> PictureReader::read_video(const RecordedFrame& frame) {
+  const auto skip = [&](const std::string& why) {
+    skipped_.push_back(fmt::format("picture {} of {} {}", frame.number, video_.string(), why));
+    return std::nullopt;
+  };
+  if (has_ended_) return std::nullopt;
+  for (; next_ <= frame.number && !has_ended_; ++next_) has_ended_ = !capture_->grab();
+  if (has_ended_) return skip("cannot be read, and none after it");
+  cv::Mat picture;
+  if (!capture_->retrieve(picture) || picture.type() != CV_8UC3) return skip("cannot be read");
+  if (format_.size_px.empty()) format_.size_px = picture.size();
+  if (picture.size() != format_.size_px) return skip("is of another size than those before it");
+  return cv::Mat3b(picture.clone());
+}
+
+std::optional<cv::Mat3b> PictureReader::read_file(const fs::path& file) {
   const auto skip = [&](std::string why) {
     skipped_.push_back(std::move(why));
     return std::nullopt;

@@ -32,15 +32,15 @@ std::map<std::string, std::string> read_info(const fs::path& file) {
     const std::size_t equals = line.find('=');
     if (equals == line.npos) continue;
     const std::string_view text = line;
-    info[std::string(bench::trimmed(text.substr(0, equals)))] =
-        bench::trimmed(text.substr(equals + 1));
+    info[std::string(files::trimmed(text.substr(0, equals)))] =
+        files::trimmed(text.substr(equals + 1));
   }
   return info;
 }
 
 /// Absent for an invalid rate.
 std::optional<double> rate_in(std::string_view text) {
-  const auto number = bench::number_in<double>(text);
+  const auto number = files::number_in<double>(text);
   constexpr double kFastest_hz = 10000;
   return number && *number > 0 && *number <= kFastest_hz ? number : std::nullopt;
 }
@@ -93,7 +93,7 @@ bool is_pictures(const fs::path& folder) {
   }
 }
 
-Recorded read_pictures(const scenario::Recorded& asked, bool) {
+Recorded read_pictures(const scenario::RecordingSource& asked, bool) {
   Recorded recorded;
   if (asked.times) {  // perhaps it names the pictures, whose order is then of no matter
     take_unordered(asked.path, recorded);
@@ -108,7 +108,7 @@ bool is_listed(const fs::path& folder) {
   return !list_in(folder).empty() && !pictures_of_list(folder).empty();
 }
 
-Recorded read_listed(const scenario::Recorded& asked, bool) {
+Recorded read_listed(const scenario::RecordingSource& asked, bool) {
   const fs::path list = list_in(asked.path), pictures = pictures_of_list(asked.path);
   if (list.empty() || pictures.empty()) {
     throw input::Error(asked.source,
@@ -126,7 +126,7 @@ bool is_mot(const fs::path& folder) {
   return fs::exists(folder / kSequenceInfo);
 }
 
-Recorded read_mot(const scenario::Recorded& asked, bool) {
+Recorded read_mot(const scenario::RecordingSource& asked, bool) {
   const std::map<std::string, std::string> info = read_info(asked.path / kSequenceInfo);
   const auto text = [&](const char* key, const char* otherwise) {
     const auto found = info.find(key);
@@ -136,7 +136,7 @@ Recorded read_mot(const scenario::Recorded& asked, bool) {
   take_pictures(asked.path / text("imDir", "img1"), "", recorded);
   recorded.timed = false;
   recorded.fps = rate_in(text("frameRate", ""));
-  const auto listed = bench::number_in<std::size_t>(text("seqLength", ""));
+  const auto listed = files::number_in<std::size_t>(text("seqLength", ""));
   if (listed && *listed != recorded.frames.size()) {
     recorded.tally.add("lists of pictures have another length than there are pictures",
                        fmt::format("{}, {} and not {}", (asked.path / kSequenceInfo).string(),
@@ -149,9 +149,9 @@ bool is_video(const fs::path& file) {
   return fs::is_regular_file(file);
 }
 
-Recorded read_video(const scenario::Recorded& asked, bool) {
+Recorded read_video(const scenario::RecordingSource& asked, bool) {
   const input::InputFile no_pipe(asked.path, kVideo, asked.source);
-  const auto video = bench::open_video(asked.path);
+  const auto video = output::open_video(asked.path);
   const auto refuse = [&](const std::string& what) {
     throw input::Error(asked.source, "{} {}; {}", asked.path.string(), what, kVideo.remedy);
   };

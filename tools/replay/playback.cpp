@@ -8,7 +8,6 @@
 #include "scenarios/input/message.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
-#include "tools/output/video.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -27,10 +26,10 @@ double frames_per_second(const std::vector<RecordedFrame>& frames) {
 Playback::Playback(const scenario::Scenario& asked)
     : scenario_(asked),
       recorded_(read_recorded(asked)),
-      pictures_(recorded_),
-      truth_(asked.recording->nothing_moves ? bench::Truth::nothing_moves
-             : recorded_.truth              ? bench::Truth::all
-                                            : bench::Truth::unknown) {
+      pictures_(recorded_.format, recorded_.video),
+      truth_(asked.recording->nothing_moves ? recording::Truth::nothing_moves
+             : recorded_.truth              ? recording::Truth::all
+                                            : recording::Truth::unknown) {
   take_settings();
   look_at_first_picture();
   require_events();
@@ -39,7 +38,7 @@ Playback::Playback(const scenario::Scenario& asked)
 }
 
 void Playback::require_events() const {
-  const scenario::Recorded& asked = scenario_.recording.value();
+  const scenario::RecordingSource& asked = scenario_.recording.value();
   if (scenario_.corner_source == scenario::CornerSource::events && recorded_.events.empty()) {
     throw input::Error(asked.source,
                        "corners.from is 'events', and {} has none; remove the key, or give a "
@@ -57,10 +56,10 @@ void Playback::require_events() const {
 }
 
 void Playback::read_labels() {
-  const scenario::Recorded& asked = scenario_.recording.value();
+  const scenario::RecordingSource& asked = scenario_.recording.value();
   if (!asked.labels) return;
-  labels_ = bench::read_labels(*asked.labels, asked.labels_video);
-  std::vector<bench::Labels::Recorded> pictures;
+  labels_ = recording::read_labels(*asked.labels, asked.labels_video);
+  std::vector<recording::Labels::Recorded> pictures;
   for (const RecordedFrame& frame : recorded_.frames) {
     pictures.push_back({static_cast<int>(frame.number), frame.picture.filename().string()});
   }
@@ -88,12 +87,12 @@ void Playback::take_settings() {
 }
 
 void Playback::look_at_first_picture() {
-  PictureStream pictures(recorded_);
+  PictureReader pictures(recorded_.format, recorded_.video);
   std::optional<cv::Mat3b> first;
   for (std::size_t i = 0; i < recorded_.frames.size() && !first; ++i) {
     first = pictures.read(recorded_.frames[i]);
   }
-  const scenario::Recorded& asked = scenario_.recording.value();
+  const scenario::RecordingSource& asked = scenario_.recording.value();
   if (!first) {
     throw input::Error(asked.source,
                        "none of the pictures in {} can be read (the first: {}); give a recording "
@@ -145,18 +144,18 @@ void Playback::read_mask() {
   mask_ = grey > kWhite;
 }
 
-bench::RunInfo Playback::info() const {
-  bench::RunInfo run;
+recording::RunInfo Playback::info() const {
+  recording::RunInfo run;
   run.scenario = scenario_.name;
   run.seed = scenario_.seed;
   run.world = scenario_.world;
   run.origin = recorded_.settings.origin;
   run.truth = truth_;
-  if (truth_ == bench::Truth::all) run.objects = recorded_.truth->objects();
+  if (truth_ == recording::Truth::all) run.objects = recorded_.truth->objects();
   return run;
 }
 
-bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
+bool Playback::next(recording::FrameRecord& frame, cv::Mat3b& image) {
   while (next_ < recorded_.frames.size()) {
     const RecordedFrame& recorded = recorded_.frames[next_++];
     std::optional<cv::Mat3b> picture = pictures_.read(recorded);
@@ -189,14 +188,14 @@ bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& pic
 }
 
 /// Matches corners by position: another threshold gives other corners.
-void Playback::label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame) {
+void Playback::label_by_truth(const RecordedFrame& recorded, recording::FrameRecord& frame) {
   frame.corner_truth.assign(frame.corners_px.size(), {});
   corners_ += static_cast<int>(frame.corners_px.size());
   untold_ += static_cast<int>(frame.corners_px.size());
-  const auto t_ns = bench::number_in<std::int64_t>(recorded.picture.stem().native());
-  const bench::FrameRecord* const found = t_ns ? recorded_.truth->at(*t_ns) : nullptr;
+  const auto t_ns = files::number_in<std::int64_t>(recorded.picture.stem().native());
+  const recording::FrameRecord* const found = t_ns ? recorded_.truth->at(*t_ns) : nullptr;
   if (found == nullptr) return;
-  const bench::FrameRecord& truth = *found;
+  const recording::FrameRecord& truth = *found;
   std::map<std::pair<float, float>, std::size_t> places;
   for (std::size_t i = 0; i < truth.corners_px.size(); ++i) {
     places[{truth.corners_px[i].x(), truth.corners_px[i].y()}] = i;
@@ -211,17 +210,17 @@ void Playback::label_by_truth(const RecordedFrame& recorded, bench::FrameRecord&
   frame.true_motion = recorded_.motion->exact().value_or(EgoMotion{});
 }
 
-void Playback::label(bench::FrameRecord& frame) {
+void Playback::label(recording::FrameRecord& frame) {
   const RecordedFrame& recorded = recorded_.frames[next_ - 1];
-  if (truth_ == bench::Truth::all) {
+  if (truth_ == recording::Truth::all) {
     label_by_truth(recorded, frame);
   } else {
-    bench::set_corner_truth(truth_, frame);
+    recording::set_corner_truth(truth_, frame);
   }
-  const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number));
+  const recording::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number));
   if (!boxes) return;
   frame.labels = *boxes;
-  for (bench::LabelledBox& box : *frame.labels) {
+  for (recording::LabelledBox& box : *frame.labels) {
     rectifier_->rectify(box.left, box.top, box.right, box.bottom);
   }
 }
@@ -232,7 +231,7 @@ Diagnostics Playback::diagnostics() const {
   return diagnostics;
 }
 
-std::vector<std::string> Playback::told() const {
+std::vector<std::string> Playback::remarks() const {
   std::vector<std::string> lines;
   const std::vector<std::string>& skipped = pictures_.skipped();
   for (std::size_t i = 0; i < skipped.size() && i < kMostToldOneByOne; ++i) {
@@ -257,34 +256,6 @@ std::vector<std::string> Playback::told() const {
             : "give camera_height, and mount where neither poses nor an IMU say where up is"));
   }
   return lines;
-}
-
-PictureStream::PictureStream(const Recorded& recorded)
-    : video_(recorded.video), files_(recorded.format) {
-  if (!video_.empty()) capture_ = bench::open_video(video_);
-}
-
-const std::vector<std::string>& PictureStream::skipped() const {
-  return video_.empty() ? files_.skipped() : skipped_;
-}
-
-std::optional<cv::Mat3b> PictureStream::read(const RecordedFrame& frame) {
-  return video_.empty() ? files_.read(frame.picture) : read_video(frame);
-}
-
-std::optional<cv::Mat3b> PictureStream::read_video(const RecordedFrame& frame) {
-  const auto skip = [&](const std::string& why) {
-    skipped_.push_back(fmt::format("picture {} of {} {}", frame.number, video_.string(), why));
-    return std::nullopt;
-  };
-  if (has_ended_) return std::nullopt;
-  for (; next_ <= frame.number && !has_ended_; ++next_) has_ended_ = !capture_->grab();
-  if (has_ended_) return skip("cannot be read, and none after it");
-  cv::Mat picture;
-  if (!capture_->retrieve(picture) || picture.type() != CV_8UC3) return skip("cannot be read");
-  if (size_.empty()) size_ = picture.size();
-  if (picture.size() != size_) return skip("is of another size than those before it");
-  return cv::Mat3b(picture.clone());
 }
 
 }  // namespace lcs::replay

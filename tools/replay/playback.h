@@ -4,9 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,30 +16,6 @@
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
-
-/// The pictures of a recording's frames, from files or a video.
-class PictureStream {
- public:
-  explicit PictureStream(const Recorded& recorded);
-
-  /// \param frame later in the recording than those before it.
-  /// \return the BGR picture; absent if unusable. `skipped` then gives the reason.
-  std::optional<cv::Mat3b> read(const RecordedFrame& frame);
-
-  /// One line for each skipped picture.
-  const std::vector<std::string>& skipped() const;
-
- private:
-  std::optional<cv::Mat3b> read_video(const RecordedFrame& frame);
-
-  fs::path video_;  ///< empty: the pictures are files
-  PictureReader files_;
-  std::unique_ptr<cv::VideoCapture> capture_;
-  std::size_t next_ = 0;  ///< index of the next picture in the video
-  bool has_ended_ = false;
-  cv::Size size_;
-  std::vector<std::string> skipped_;  ///< of the video
-};
 
 class Playback : public bench::FrameSource {
  public:
@@ -55,18 +29,18 @@ class Playback : public bench::FrameSource {
   const sim::Pinhole& camera() const { return rectifier_->camera(); }
 
   /// The facts of a run of the scenario.
-  bench::RunInfo info() const;
+  recording::RunInfo info() const;
 
-  bool next(bench::FrameRecord& frame, cv::Mat3b& image) override;
+  bool next(recording::FrameRecord& frame, cv::Mat3b& image) override;
   std::span<const sim::Event> events() const override { return events_; }
   bool straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const override;
-  void label(bench::FrameRecord& frame) override;
+  void label(recording::FrameRecord& frame) override;
   Diagnostics diagnostics() const override;
 
   /// Number of unusable pictures so far.
   std::size_t skipped() const { return next_ - static_cast<std::size_t>(index_); }
   /// The faults and missing inputs so far: one readable line each.
-  std::vector<std::string> told() const;
+  std::vector<std::string> remarks() const;
 
  private:
   void take_settings();
@@ -74,15 +48,15 @@ class Playback : public bench::FrameSource {
   void read_mask();
   void read_labels();
   void require_events() const;
-  void label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame);
+  void label_by_truth(const RecordedFrame& recorded, recording::FrameRecord& frame);
 
   scenario::Scenario scenario_;
   Recorded recorded_;
-  PictureStream pictures_;
+  PictureReader pictures_;
   std::optional<sim::Rectifier> rectifier_;
-  bench::Truth truth_;            ///< of corners
+  recording::Truth truth_;        ///< of corners
   int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth
-  bench::Labels labels_;          ///< of moving objects, if present
+  recording::Labels labels_;      ///< of moving objects, if present
   cv::Mat1b mask_;                ///< empty, or non-zero at ignored pixels
   std::size_t next_ = 0;          ///< of the recorded frames
   int index_ = 0;                 ///< of the next frame

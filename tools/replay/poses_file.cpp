@@ -32,14 +32,10 @@ constexpr Places kTumPlaces{0, 1, 2, 3, 4, 5, 6, 7};
 std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const Places& at,
                                                std::int64_t unit_ns) {
   const auto t_ns = time_in(TextTable::field(row, at[0]), unit_ns);
-  std::array<double, 7> n{};
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    const auto number = bench::number_in<double>(TextTable::field(row, at[i + 1]));
-    if (!number) return std::nullopt;
-    n[i] = *number;
-  }
-  const Vector3d p(n[0], n[1], n[2]);
-  const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
+  const auto numbers = TextTable::numbers(row, std::span(at).subspan(1));
+  if (!numbers) return std::nullopt;
+  const Vector3d p(numbers->data());
+  const Eigen::Quaterniond q(numbers->data() + 3);
   if (!t_ns || !is_place(p) || !(std::abs(q.norm() - 1) <= kTolerance)) return std::nullopt;
   return PosesFile::Line{t_ns, {}, {q.normalized().toRotationMatrix(), p}};
 }
@@ -54,7 +50,7 @@ std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_
   if (!is_place(rows.col(3)) || !R) return std::nullopt;
   PosesFile::Line line{{}, {}, {*R, rows.col(3)}};
   if (first > 0) {
-    line.number = bench::number_in<std::size_t>(row.fields[0]);
+    line.number = files::number_in<std::size_t>(row.fields[0]);
     if (!line.number) return std::nullopt;
   }
   return line;
@@ -91,17 +87,13 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
   const PosesFile::Line* before = nullptr;
   for (std::size_t i = 0; i < poses.lines.size(); ++i) {
     const auto& line = poses.lines[i];
-    Vector3d v_mps;
-    bool is_whole = line.has_value();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto number = bench::number_in<double>(TextTable::field(table.rows[i], *column + axis));
-      is_whole = is_whole && number;
-      v_mps[static_cast<Eigen::Index>(axis)] = number.value_or(0);
-    }
-    if (!is_whole) continue;
+    const auto v_mps =
+        TextTable::numbers(table.rows[i], std::array{*column, *column + 1, *column + 2});
+    if (!line || !v_mps) continue;
     if (before) {
       by_places_m += (line->T_WC.p - before->T_WC.p).norm();
-      by_velocities_m += 1e-9 * static_cast<double>(*line->t_ns - *before->t_ns) * v_mps.norm();
+      by_velocities_m +=
+          1e-9 * static_cast<double>(*line->t_ns - *before->t_ns) * Vector3d(v_mps->data()).norm();
     }
     before = &*line;
   }
@@ -156,7 +148,6 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
         time_unit_of(table, named ? (*named)[0] : 0, time_unit, {kSlowest_hz, kFastest_hz, {}},
                      poses.of_body ? kNanosecond_ns : kSecond_ns, tally);
   }
-  bool any = false;
   for (const TextTable::Row& row : table.rows) {
     auto& line = poses.lines.emplace_back();
     if (poses.timed) {
@@ -166,18 +157,12 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
       line = matrix_line(row, fields > kMatrix ? 1 : 0, fields > kMatrix ? kMatrix : fields);
     }
     if (!line) tally.add("rows cannot be read and are left out", table.at(row));
-    any |= line.has_value();
   }
   require_velocities(table, poses);
-  if (any) return poses;
-  throw input::Error({file.string(), 0},
-                     "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
-}
-
-std::optional<Vector3d> up_of_world(const scenario::Recorded& asked, const sim::Pose& T_WC_first,
-                                    const std::optional<Vector3d>& otherwise) {
-  if (!asked.mount_rpy_rad) return otherwise;
-  return T_WC_first.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
+  if (std::ranges::none_of(poses.lines, [](const auto& line) { return line.has_value(); })) {
+    refuse(0, "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
+  }
+  return poses;
 }
 
 }  // namespace lcs::replay

@@ -37,9 +37,4 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
 /// A rotation close to a rounded rotation matrix; absent if it is no rotation.
 std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R);
 
-/// Up (against gravity) in the poses' world frame, from the given mounting of the camera on a
-/// vehicle that is upright at the first pose. \param otherwise result without a given mounting.
-std::optional<Vector3d> up_of_world(const scenario::Recorded& asked, const sim::Pose& T_WC_first,
-                                    const std::optional<Vector3d>& otherwise);
-
 }  // namespace lcs::replay

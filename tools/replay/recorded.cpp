@@ -21,19 +21,29 @@ void Tally::add(const std::string& what, const std::string& example, int count) 
 }
 
 std::vector<std::string> Tally::lines() const {
-  std::vector<std::string> lines = told_;
+  std::vector<std::string> lines = remarks_;
   for (const Entry& entry : entries_) {
     lines.push_back(fmt::format("{} {} (the first: {})", entry.count, entry.what, entry.example));
   }
   return lines;
 }
 
+Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source) {
+  Lens lens;
+  lens.fu_px = numbers[0];
+  lens.fv_px = numbers[1];
+  lens.cu_px = numbers[2];
+  lens.cv_px = numbers[3];
+  lens.source = source;
+  return lens;
+}
+
 std::string RecordedFrame::name() const {
   return picture.empty() ? fmt::format("picture {}", number) : picture.filename().string();
 }
 
-const std::vector<Layout>& layouts() {
-  static const std::vector<Layout> kLayouts{
+const std::vector<RecordingLayout>& layouts() {
+  static const std::vector<RecordingLayout> kLayouts{
       {"euroc", "mav0/cam0, imu0 (EuRoC ASL; sequences of lcs generate)", is_euroc, read_euroc},
       {"kitti", "image_0X, oxts: a drive of KITTI raw; calibration in the folder above", is_kitti,
        read_kitti},
@@ -61,10 +71,10 @@ const std::vector<Layout>& layouts() {
   return kLayouts;
 }
 
-const Layout& layout_of(const scenario::Recorded& asked) {
+const RecordingLayout& layout_of(const scenario::RecordingSource& asked) {
   std::string names;
   input::note_input(asked.path);
-  for (const Layout& layout : layouts()) {
+  for (const RecordingLayout& layout : layouts()) {
     if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
@@ -74,7 +84,7 @@ const Layout& layout_of(const scenario::Recorded& asked) {
                      asked.path.string(), names);
 }
 
-bool motion_is_asked(const scenario::Recorded& asked) {
+bool motion_is_asked(const scenario::RecordingSource& asked) {
   return asked.poses || asked.imu || asked.speed_mps;
 }
 
@@ -114,16 +124,12 @@ void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tall
 
 void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
                  Recorded& recorded) {
-  std::vector<RecordedFrame>& frames = recorded.frames;
-  const auto is_outside = [&](const RecordedFrame& frame) {
-    return frame.t_ns < first_ns || frame.t_ns > last_ns;
-  };
-  const auto first = std::ranges::find_if(frames, is_outside);
-  if (first == frames.end()) return;
-  const std::string example = first->name();
-  const auto count = std::erase_if(frames, is_outside);
-  recorded.tally.add(what, example, static_cast<int>(count));
-  if (frames.empty()) {
+  std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
+    const bool is_outside = frame.t_ns < first_ns || frame.t_ns > last_ns;
+    if (is_outside) recorded.tally.add(what, frame.name());
+    return is_outside;
+  });
+  if (recorded.frames.empty()) {
     throw std::runtime_error(
         "no picture was taken while the sensors recorded; give both the times of one clock");
   }

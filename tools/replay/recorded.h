@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,20 +36,31 @@ struct PictureFormat {
 /// OpenCV's conversion for a pattern, from the top left pixel on: rggb, bggr, grbg or gbrg.
 int demosaic_of(const std::string& pattern);
 
-/// Reads pictures of one size from files.
+struct RecordedFrame;
+
+/// Reads pictures of one size, from files or a video.
 class PictureReader {
  public:
-  explicit PictureReader(const PictureFormat& format) : format_(format) {}
+  /// \param video contains the pictures; empty: they are files.
+  explicit PictureReader(const PictureFormat& format, const fs::path& video = {});
 
-  /// \return the BGR picture, of 8 bits; absent if the file is missing, unreadable or of another
-  /// size. `skipped` then gives the reason.
-  std::optional<cv::Mat3b> read(const std::filesystem::path& file);
+  /// \param frame later in a video than those before it.
+  /// \return the BGR picture, of 8 bits; absent if it is missing, unreadable or of another size.
+  /// `skipped` then gives the reason.
+  std::optional<cv::Mat3b> read(const RecordedFrame& frame);
 
   /// One line for each skipped picture.
   const std::vector<std::string>& skipped() const { return skipped_; }
 
  private:
+  std::optional<cv::Mat3b> read_file(const fs::path& file);
+  std::optional<cv::Mat3b> read_video(const RecordedFrame& frame);
+
   PictureFormat format_;
+  fs::path video_;
+  std::unique_ptr<cv::VideoCapture> capture_;
+  std::size_t next_ = 0;  ///< index of the next picture in the video
+  bool has_ended_ = false;
   std::vector<std::string> skipped_;
 };
 
@@ -62,7 +75,7 @@ class Tally {
   /// \param example of it; only the first one is reported.
   void add(const std::string& what, const std::string& example, int count = 1);
   /// A line that stands for itself.
-  void tell(std::string line) { told_.push_back(std::move(line)); }
+  void tell(std::string line) { remarks_.push_back(std::move(line)); }
   /// Lines such as "3 pictures that ... are missing (the first: 12.png)".
   std::vector<std::string> lines() const;
 
@@ -72,7 +85,7 @@ class Tally {
     int count;
   };
   std::vector<Entry> entries_;
-  std::vector<std::string> told_;
+  std::vector<std::string> remarks_;
 };
 
 /// Sorts items by `t_ns`, and removes all but the first of those with the same time; counts both in
@@ -94,6 +107,9 @@ void sort_by_time(std::vector<Timed>& items, const std::string& plural, const st
 }
 
 using sim::Lens;
+
+/// A lens without distortion. \param numbers fu, fv, cu, cv, in pixels. \param source of them.
+Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source);
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;
@@ -125,7 +141,7 @@ struct Recorded {
   }();
   /// The truth of corners and objects, if known. Each of its frames belongs to the picture named by
   /// its time.
-  std::optional<bench::SeenReader> truth;
+  std::optional<recording::SeenReader> truth;
   std::unique_ptr<MotionSource> motion;  ///< null: the layout has no motion of the camera
   std::vector<std::string> lacks;        ///< inputs that only the user can provide, and their keys
   Tally tally;
@@ -138,10 +154,10 @@ using Fits = bool(const fs::path& path);
 /// Reads the layout's own data, except where the user overrides it.
 /// \param exact_motion take the motion from the truth, not the IMU, if both are present.
 /// \throws std::runtime_error with file and line.
-using Read = Recorded(const scenario::Recorded& asked, bool exact_motion);
+using Read = Recorded(const scenario::RecordingSource& asked, bool exact_motion);
 
 /// A layout of a recording on disk.
-struct Layout {
+struct RecordingLayout {
   std::string_view name;
   std::string_view purpose;  ///< one readable line
   Fits* fits;
@@ -149,11 +165,11 @@ struct Layout {
 };
 
 /// All layouts, in the order in which they are tried.
-const std::vector<Layout>& layouts();
+const std::vector<RecordingLayout>& layouts();
 
 /// The layout named by `asked.format`, or else the first one that fits.
 /// \throws input::Error if none fits.
-const Layout& layout_of(const scenario::Recorded& asked);
+const RecordingLayout& layout_of(const scenario::RecordingSource& asked);
 
 /// Reads the layout with the user's values in place of its own: the selected frames with their
 /// times, a lens or at least a focal length, and a motion.
@@ -161,7 +177,7 @@ const Layout& layout_of(const scenario::Recorded& asked);
 Recorded read_recorded(const scenario::Scenario& asked);
 
 /// Whether the user provides the camera's motion.
-bool motion_is_asked(const scenario::Recorded& asked);
+bool motion_is_asked(const scenario::RecordingSource& asked);
 
 /// \name The readers.
 ///@{
@@ -171,12 +187,16 @@ Read read_euroc, read_kitti, read_kitti_odometry, read_robotcar, read_tum_rgbd, 
     read_mot, read_kitti_tracking, read_kitti_360, read_listed, read_bag, read_video, read_pictures;
 ///@}
 
+/// The pose of the camera on the body or the IMU by a mount or a calibration of the user.
+std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
+                                        const std::optional<sim::Pose>& otherwise);
+
 /// Moves the frames' times to the IMU's clock, by `asked.time_offset_s` or else the
 /// `timeshift_cam_imu` of `asked.calibration`.
-void take_time_offset(const scenario::Recorded& asked, Recorded& recorded);
+void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded);
 
 /// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
-void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded);
+void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded);
 
 /// Gives the pictures times at a constant rate, beginning at 0.
 void time_by(double fps, Recorded& recorded);
@@ -212,11 +232,11 @@ inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
 
 /// Sets the motion from `asked.poses`. \param times_known of the pictures.
 /// \throws input::Error for unreadable poses, and for a body's poses without the camera's place.
-void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded);
+void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Recorded& recorded);
 
 /// Sets the motion from a layout's file of poses with their times. \param up_W of its world frame.
 /// \throws input::Error for unreadable poses, and for those without times.
-void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
+void move_by_timed_poses(const scenario::RecordingSource& asked, const fs::path& file,
                          const Vector3d& up_W, Recorded& recorded);
 
 /// Sets the motion along the camera's poses, and removes frames outside their time span.
@@ -224,13 +244,13 @@ void move_by_timed_poses(const scenario::Recorded& asked, const fs::path& file,
 /// \param file of the poses. \param outside what is told of the frames outside.
 /// \throws input::Error if there is no pose.
 void move_along(std::vector<SensorReadings::CameraPose> poses, const std::optional<Vector3d>& level,
-                const scenario::Recorded& asked, const fs::path& file, const char* outside,
+                const scenario::RecordingSource& asked, const fs::path& file, const char* outside,
                 Recorded& recorded);
 
 /// Sets the motion from readings of an IMU. Its axes are the vehicle's axes, and the vehicle starts
 /// upright; or any, if `asked.calibration` states the camera's place on it.
 /// \param file of the readings, for messages.
-void move_by_readings(const scenario::Recorded& asked, const fs::path& file,
+void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
                       SensorReadings readings, Recorded& recorded);
 
 /// Sets the motion from a navigation unit's states: sorts them, removes duplicate times, and

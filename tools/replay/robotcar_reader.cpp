@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/files/csv.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
@@ -39,7 +38,7 @@ const CameraKind* first_camera(const fs::path& folder) {
   return found == std::end(kCameras) ? nullptr : found;
 }
 
-const CameraKind& camera_of(const scenario::Recorded& asked) {
+const CameraKind& camera_of(const scenario::RecordingSource& asked) {
   if (asked.camera.empty()) {
     if (const CameraKind* first = first_camera(asked.path)) return *first;
     throw std::runtime_error(
@@ -76,23 +75,16 @@ std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   R_frd_flu << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   std::vector<NavigationState> states;
   for (const TextTable::Row& row : table.rows) {
-    std::vector<double> numbers;
-    std::optional<std::int64_t> t_ns;
-    if (time < row.fields.size()) t_ns = time_in(row.fields[time], kMicrosecond_ns);
-    for (const std::size_t place : columns) {
-      if (place >= row.fields.size()) continue;
-      if (const auto number = bench::number_in<double>(row.fields[place])) {
-        numbers.push_back(*number);
-      }
-    }
-    if (!t_ns || numbers.size() != std::size(columns) ||
-        !is_speed(numbers[0], numbers[1], numbers[2])) {
+    const auto t_ns = time_in(TextTable::field(row, time), kMicrosecond_ns);
+    const auto numbers = TextTable::numbers(row, columns);
+    const Vector3d v_ned_mps = numbers ? Vector3d(numbers->data()) : Vector3d::Zero();
+    if (!t_ns || !numbers || !is_speed(v_ned_mps)) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
     }
-    const Eigen::Matrix3d R_ned_frd = sim::rotation_of_rpy({numbers[3], numbers[4], numbers[5]});
-    states.push_back({*t_ns, Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu),
-                      R_enu_ned * Vector3d(numbers[0], numbers[1], numbers[2])});
+    const Eigen::Matrix3d R_ned_frd = sim::rotation_of_rpy(Vector3d(numbers->data() + 3));
+    states.push_back(
+        {*t_ns, Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu), R_enu_ned * v_ned_mps});
   }
   return states;
 }
@@ -103,7 +95,7 @@ bool is_robotcar(const fs::path& folder) {
   return first_camera(folder) != nullptr;
 }
 
-Recorded read_robotcar(const scenario::Recorded& asked, bool) {
+Recorded read_robotcar(const scenario::RecordingSource& asked, bool) {
   const CameraKind& camera = camera_of(asked);
   Recorded recorded;
   recorded.format.demosaic = camera.demosaic;

@@ -35,10 +35,10 @@ std::vector<sim::Event> read_events(const fs::path& path, Tally& tally) {
   input::InputFile file(path, kKind);
   std::vector<sim::Event> events;
   for (std::string line; file.next_line(line);) {
-    const auto [time, column, row, polarity] = fields_in(bench::trimmed(line));
+    const auto [time, column, row, polarity] = fields_in(files::trimmed(line));
     const auto t_ns = time_in(time, kSecond_ns);
-    const auto x = bench::number_in<std::uint16_t>(column);
-    const auto y = bench::number_in<std::uint16_t>(row);
+    const auto x = files::number_in<std::uint16_t>(column);
+    const auto y = files::number_in<std::uint16_t>(row);
     if (!t_ns || !x || !y || (polarity != "0" && polarity != "1")) {
       tally.add("events cannot be read and are left out",
                 fmt::format("{}:{}", path.string(), file.here().line));
@@ -60,14 +60,12 @@ Lens read_lens(const fs::path& file) {
   if (!numbers)
     throw input::Error({file.string(), 0}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
   const std::vector<double>& n = *numbers;
-  Lens lens;
-  lens.fu_px = n[0], lens.fv_px = n[1], lens.cu_px = n[2], lens.cv_px = n[3];
+  Lens lens = pinhole({n[0], n[1], n[2], n[3]}, {file.string(), 0});
   const std::vector<double> k(n.begin() + 4, n.end());
   if (std::ranges::any_of(k, [](double c) { return c != 0; })) {
     lens.distortion = Lens::Distortion::radial_tangential;
     lens.coefficients = k;
   }
-  lens.source = {file.string(), 0};
   return lens;
 }
 
@@ -97,7 +95,7 @@ bool is_rpg_events(const fs::path& folder) {
 
 /// The layout does not state where the camera is on the IMU. The motion comes from the IMU if
 /// `asked.calibration` states it, else from the truth.
-Recorded read_rpg_events(const scenario::Recorded& asked, bool exact_motion) {
+Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_motion) {
   Recorded recorded;
   const auto picture = [&](const TextTable::Row& row) {
     return row.fields.size() == 2 ? asked.path / row.fields[1] : fs::path();

@@ -52,20 +52,14 @@ std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
   std::vector<NumberRow> rows;
   for (const TextTable::Row& row : table.rows) {
     const auto t_ns = time.of(row);
-    NumberRow read{t_ns.value_or(0), {}};
-    const auto take = [&](std::size_t column) {
-      if (const auto number = bench::number_in<double>(TextTable::field(row, column))) {
-        read.numbers.push_back(*number);
-      }
-    };
-    for (const std::size_t column : columns) take(column);
-    const bool whole = t_ns && read.numbers.size() == columns.size();
-    if (last) take(*last);
-    if (whole) {
-      rows.push_back(std::move(read));
-    } else {
+    auto numbers = TextTable::numbers(row, columns);
+    if (!t_ns || !numbers) {
       tally.add("rows cannot be read and are left out", table.at(row));
+      continue;
     }
+    const auto more = last ? files::number_in<double>(TextTable::field(row, *last)) : std::nullopt;
+    if (more) numbers->push_back(*more);
+    rows.push_back({*t_ns, std::move(*numbers)});
   }
   sort_by_time(rows, "rows", table.file.string(), tally);
   return rows;
@@ -280,6 +274,23 @@ std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row, const fs::pa
   return std::nullopt;
 }
 
+/// Counts gaps between readings that exceed four of their usual periods.
+void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
+  constexpr int kSilentPeriods = 4;
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
+  }
+  const auto period_ns = usual(periods);
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    if (periods[i] / kSilentPeriods > *period_ns) {
+      tally.add("gaps are in the readings of the IMU, in which the last one is held",
+                fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
+                            samples[i].t_ns));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes& times,
@@ -331,7 +342,7 @@ std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tall
 std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& times, Tally& tally) {
   std::vector<TrueState> states;
   for (const NumberRow& row : read_numbers(file, kTruthNames, times, tally)) {
-    if (!is_speed(row.numbers[7], row.numbers[8], row.numbers[9])) {
+    if (!is_speed(vector_at(row, 7))) {
       tally.add("rows have a speed above 1000 m/s and are left out", file.string());
       continue;
     }
@@ -369,22 +380,6 @@ std::vector<TrueState> read_body_poses_csv(const fs::path& file, const TableTime
         file.string());
   }
   return states;
-}
-
-void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
-  constexpr int kSilentPeriods = 4;
-  std::vector<std::int64_t> periods;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
-  }
-  const auto period_ns = usual(periods);
-  for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (periods[i] / kSilentPeriods > *period_ns) {
-      tally.add("gaps are in the readings of the IMU, in which the last one is held",
-                fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
-                            samples[i].t_ns));
-    }
-  }
 }
 
 }  // namespace lcs::replay

@@ -55,7 +55,4 @@ std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& ti
 std::vector<TrueState> read_body_poses_csv(const fs::path& file, const TableTimes& times,
                                            Tally& tally);
 
-/// Counts gaps between readings that exceed four of their usual periods.
-void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally);
-
 }  // namespace lcs::replay

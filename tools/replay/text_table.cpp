@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numeric>
 #include <sstream>
 
 #include "scenarios/input/input_file.h"
@@ -20,16 +21,15 @@ char separator_in(std::string_view line) {
   return ' ';
 }
 
-std::vector<std::string> split(std::string_view line, char separator) {
+std::vector<std::string> fields_in(std::string_view line, char separator) {
   std::vector<std::string> fields;
   if (separator == ' ') {
     std::istringstream words{std::string(line)};
     for (std::string word; words >> word;) fields.push_back(word);
     return fields;
   }
-  for (std::size_t end = 0; end != line.npos; line.remove_prefix(std::min(end + 1, line.size()))) {
-    end = line.find(separator);
-    fields.emplace_back(bench::trimmed(line.substr(0, end)));
+  for (const std::string_view field : files::split(line, separator)) {
+    fields.emplace_back(files::trimmed(field));
     // Tables with semicolons come from countries that write 0,5.
     if (separator == ';') std::ranges::replace(fields.back(), ',', '.');
   }
@@ -52,15 +52,13 @@ std::string with_units_joined(std::string_view line) {
 }
 
 std::vector<TextTable::Column> columns_in(std::string_view line, char separator) {
-  while (!line.empty() && std::string_view("#% \t").find(line.front()) != std::string_view::npos) {
-    line.remove_prefix(1);
-  }
+  line.remove_prefix(std::min(line.find_first_not_of("#% \t"), line.size()));
   std::vector<TextTable::Column> columns;
-  for (const std::string& field : split(with_units_joined(line), separator)) {
+  for (const std::string& field : fields_in(with_units_joined(line), separator)) {
     const std::size_t unit = field.find_first_of("[(");
     const std::size_t end = field.find_first_of("])", std::min(unit, field.size()));
-    TextTable::Column column{std::string(bench::trimmed(field.substr(0, unit))), ""};
-    while (column.name.starts_with('#')) column.name = bench::trimmed(column.name.substr(1));
+    TextTable::Column column{std::string(files::trimmed(field.substr(0, unit))), ""};
+    while (column.name.starts_with('#')) column.name = files::trimmed(column.name.substr(1));
     if (unit != field.npos) column.unit = field.substr(unit + 1, end - unit - 1);
     std::ranges::replace(column.unit, '~', ' ');
     columns.push_back(column);
@@ -83,16 +81,23 @@ std::string_view TextTable::field(const Row& row, std::size_t column) {
   return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
 }
 
-std::optional<std::vector<double>> TextTable::numbers(const Row& row, std::size_t first,
-                                                      std::size_t count) {
+std::optional<std::vector<double>> TextTable::numbers(const Row& row,
+                                                      std::span<const std::size_t> columns) {
   std::vector<double> numbers;
-  if (row.fields.size() != first + count) return std::nullopt;
-  for (std::size_t i = first; i < row.fields.size(); ++i) {
-    const auto number = bench::number_in<double>(row.fields[i]);
+  for (const std::size_t column : columns) {
+    const auto number = files::number_in<double>(field(row, column));
     if (!number) return std::nullopt;
     numbers.push_back(*number);
   }
   return numbers;
+}
+
+std::optional<std::vector<double>> TextTable::numbers(const Row& row, std::size_t first,
+                                                      std::size_t count) {
+  if (row.fields.size() != first + count) return std::nullopt;
+  std::vector<std::size_t> columns(count);
+  std::iota(columns.begin(), columns.end(), first);
+  return numbers(row, columns);
 }
 
 std::optional<std::size_t> TextTable::find(std::string_view name) const {
@@ -132,7 +137,7 @@ TextTable read_table(const fs::path& file) {
   TextTable table{file, ' ', {}, {}};
   std::vector<std::string> before;  // lines before the first row
   for (std::string text; input.next_line(text);) {
-    const std::string_view line = bench::trimmed(text);
+    const std::string_view line = files::trimmed(text);
     if (line.empty()) continue;
     if (table.rows.empty() && !begins_with_number(line)) {
       before.emplace_back(line);
@@ -140,7 +145,7 @@ TextTable read_table(const fs::path& file) {
     }
     if (line.starts_with('#')) continue;
     if (table.rows.empty()) table.separator = separator_in(line);
-    table.rows.push_back({input.here().line, split(line, table.separator)});
+    table.rows.push_back({input.here().line, fields_in(line, table.separator)});
   }
   if (before.empty()) return table;
   if (table.rows.empty()) table.separator = separator_in(before.back());

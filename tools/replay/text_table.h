@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ struct TextTable {
   std::string at(const Row& row) const;
   /// The field of a row; "" if the row is shorter.
   static std::string_view field(const Row& row, std::size_t column);
+  /// The numbers in columns of a row; absent unless all are there.
+  static std::optional<std::vector<double>> numbers(const Row& row,
+                                                    std::span<const std::size_t> columns);
   /// The fields of a row from `first` on; absent unless they are `count` numbers.
   static std::optional<std::vector<double>> numbers(const Row& row, std::size_t first,
                                                     std::size_t count);

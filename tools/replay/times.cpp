@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "scenarios/input/error.h"
@@ -17,29 +15,17 @@ namespace {
 
 constexpr double kNanosecondsASecond = 1e9;
 
-/// Three texts with separators between them.
-struct Parts {
-  std::string_view first, second, third;
-};
-std::optional<Parts> parts_of(std::string_view text, char separator) {
-  const std::size_t one = text.find(separator);
-  if (one == text.npos) return std::nullopt;
-  const std::size_t two = text.find(separator, one + 1);
-  if (two == text.npos) return std::nullopt;
-  return Parts{text.substr(0, one), text.substr(one + 1, two - one - 1), text.substr(two + 1)};
-}
-
 std::optional<int> whole_within(std::string_view text, int least, int most) {
-  const auto number = bench::number_in<int>(text);
+  const auto number = files::number_in<int>(text);
   return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
 std::optional<std::chrono::sys_days> day_in(std::string_view date) {
-  const auto parts = parts_of(date, '-');
-  if (!parts) return std::nullopt;
-  const auto year = whole_within(parts->first, 1900, 2099);
-  const auto month = whole_within(parts->second, 1, 12);
-  const auto day = whole_within(parts->third, 1, 31);
+  const std::vector<std::string_view> parts = files::split(date, '-');
+  if (parts.size() != 3) return std::nullopt;
+  const auto year = whole_within(parts[0], 1900, 2099);
+  const auto month = whole_within(parts[1], 1, 12);
+  const auto day = whole_within(parts[2], 1, 31);
   if (!year || !month || !day) return std::nullopt;
   const std::chrono::year_month_day on{std::chrono::year(*year), std::chrono::month(*month),
                                        std::chrono::day(*day)};
@@ -48,22 +34,28 @@ std::optional<std::chrono::sys_days> day_in(std::string_view date) {
 }
 
 std::optional<std::chrono::nanoseconds> time_of_day_in(std::string_view clock) {
-  const auto parts = parts_of(clock, ':');
-  if (!parts) return std::nullopt;
-  const auto hour = whole_within(parts->first, 0, 23);
-  const auto minute = whole_within(parts->second, 0, 59);
-  const auto second = bench::number_in<double>(parts->third);
+  const std::vector<std::string_view> parts = files::split(clock, ':');
+  if (parts.size() != 3) return std::nullopt;
+  const auto hour = whole_within(parts[0], 0, 23);
+  const auto minute = whole_within(parts[1], 0, 59);
+  const auto second = files::number_in<double>(parts[2]);
   if (!hour || !minute || !second || !(*second >= 0 && *second < 61)) return std::nullopt;
   return std::chrono::hours(*hour) + std::chrono::minutes(*minute) +
          std::chrono::nanoseconds(std::llround(*second * kNanosecondsASecond));
 }
 
 struct TimeUnit {
-  const char* name;
   std::int64_t ns;
+  std::vector<std::string_view> names;  ///< the shortest first
 };
-constexpr std::array<TimeUnit, 4> kTimeUnits{
-    {{"s", kSecond_ns}, {"ms", kMillisecond_ns}, {"us", kMicrosecond_ns}, {"ns", kNanosecond_ns}}};
+const std::vector<TimeUnit>& time_units() {
+  static const std::vector<TimeUnit> kUnits{
+      {kSecond_ns, {"s", "sec", "secs", "second", "seconds"}},
+      {kMillisecond_ns, {"ms", "msec", "millis", "milliseconds"}},
+      {kMicrosecond_ns, {"us", "usec", "microseconds", "µs"}},
+      {kNanosecond_ns, {"ns", "nsec", "nsecs", "nanoseconds"}}};
+  return kUnits;
+}
 
 /// The unit of a column of times: in brackets, or the last word of a name as "timestamp_ns".
 std::string unit_in(const TextTable::Column& column) {
@@ -79,7 +71,7 @@ std::optional<double> usual_period(const TextTable& table, std::size_t column) {
   std::vector<double> periods;
   std::optional<long double> last;  // a double has too few digits for epoch times
   for (std::size_t i = 0; i < table.rows.size() && i < kSuffices; ++i) {
-    const auto time = bench::number_in<long double>(TextTable::field(table.rows[i], column));
+    const auto time = files::number_in<long double>(TextTable::field(table.rows[i], column));
     if (time && last && *time > *last) periods.push_back(static_cast<double>(*time - *last));
     if (time) last = time;
   }
@@ -93,25 +85,10 @@ bool is_digits(std::string_view text) {
 }  // namespace
 
 std::optional<std::int64_t> time_unit_named(std::string_view name) {
-  static const std::map<std::string_view, std::int64_t> kUnits{{"s", kSecond_ns},
-                                                               {"sec", kSecond_ns},
-                                                               {"secs", kSecond_ns},
-                                                               {"second", kSecond_ns},
-                                                               {"seconds", kSecond_ns},
-                                                               {"ms", kMillisecond_ns},
-                                                               {"msec", kMillisecond_ns},
-                                                               {"millis", kMillisecond_ns},
-                                                               {"milliseconds", kMillisecond_ns},
-                                                               {"us", kMicrosecond_ns},
-                                                               {"usec", kMicrosecond_ns},
-                                                               {"microseconds", kMicrosecond_ns},
-                                                               {"µs", kMicrosecond_ns},
-                                                               {"ns", kNanosecond_ns},
-                                                               {"nsec", kNanosecond_ns},
-                                                               {"nsecs", kNanosecond_ns},
-                                                               {"nanoseconds", kNanosecond_ns}};
-  const auto found = kUnits.find(name);
-  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+  for (const TimeUnit& unit : time_units()) {
+    if (std::ranges::count(unit.names, name) > 0) return unit.ns;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns) {
@@ -122,14 +99,14 @@ std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns)
   if (is_negative) whole.remove_prefix(1);
   if (is_digits(whole) && (fraction.empty() || is_digits(fraction))) {
     // not through a double, whose precision at such times is above a nanosecond
-    const auto units = bench::number_in<std::int64_t>(whole);
+    const auto units = files::number_in<std::int64_t>(whole);
     if (!units || *units > kFarthest_ns / unit_ns) return std::nullopt;
     std::int64_t t_ns = *units * unit_ns, place_ns = unit_ns;
     for (const char digit : fraction) t_ns += (digit - '0') * (place_ns /= 10);
     if (!is_time(t_ns)) return std::nullopt;
     return is_negative ? -t_ns : t_ns;
   }
-  const auto number = bench::number_in<double>(text);
+  const auto number = files::number_in<double>(text);
   const double t_ns = number.value_or(0) * static_cast<double>(unit_ns);
   if (!number || std::abs(t_ns) >= static_cast<double>(kFarthest_ns)) return std::nullopt;
   return std::llround(t_ns);
@@ -174,19 +151,20 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
     return unit_ns;
   };
   const auto fitting =
-      std::ranges::find_if(kTimeUnits, [&](const TimeUnit& unit) { return fits(unit.ns); });
+      std::ranges::find_if(time_units(), [&](const TimeUnit& unit) { return fits(unit.ns); });
   const std::string file = table.file.string();
   const std::string rate =
       expected.stated_hz ? fmt::format("{} states {:g} Hz", expected.stated_by, *expected.stated_hz)
                          : fmt::format("a sensor of its kind has {:g} to {:g} Hz",
                                        expected.least_hz, expected.most_hz);
   const auto contradict = [&](const std::string& by, std::int64_t unit_ns) {
-    throw input::Error({file, table.rows.front().line},
-                       "its times are {}, which gives {:.3g} rows a second, and {}; {}", by,
-                       rate_hz(unit_ns), rate,
-                       fitting == kTimeUnits.end()
-                           ? "correct one of the two"
-                           : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name));
+    throw input::Error(
+        {file, table.rows.front().line},
+        "its times are {}, which gives {:.3g} rows a second, and {}; {}", by, rate_hz(unit_ns),
+        rate,
+        fitting == time_units().end()
+            ? "correct one of the two"
+            : fmt::format("if they are in {0}, give time_unit: {0}", fitting->names.front()));
   };
   // The user's unit may be meant for another table: then this table's own unit fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
@@ -198,7 +176,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   if (by_user) contradict("in " + asked + " by time_unit", *by_user);
   if (by_header) contradict("in " + stated + " by its header", *by_header);
   if (layouts && fits(*layouts)) return chosen(*layouts);
-  if (fitting == kTimeUnits.end()) {
+  if (fitting == time_units().end()) {
     throw input::Error({file, table.rows.front().line},
                        "no unit of time gives its rows the rate that they can have: {}; give "
                        "time_unit (s, ms, us or ns)",
@@ -206,7 +184,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   }
   tally.add(
       "tables of times do not state their unit, and are read in the unit that fits their rate",
-      fmt::format("{} in {}: {:.3g} Hz", file, fitting->name, rate_hz(fitting->ns)));
+      fmt::format("{} in {}: {:.3g} Hz", file, fitting->names.front(), rate_hz(fitting->ns)));
   return chosen(fitting->ns);
 }
 

@@ -16,7 +16,7 @@ bool is_tum_rgbd(const fs::path& folder) {
   return fs::exists(folder / kPictures);
 }
 
-Recorded read_tum_rgbd(const scenario::Recorded& asked, bool) {
+Recorded read_tum_rgbd(const scenario::RecordingSource& asked, bool) {
   Recorded recorded;
   const auto picture = [&](const TextTable::Row& row) {
     return row.fields.size() > 1 ? asked.path / row.fields[1] : fs::path();

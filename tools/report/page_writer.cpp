@@ -62,7 +62,7 @@ std::string escaped(std::string_view text) {
 }
 
 void write_page(const std::filesystem::path& file, const Page& page) {
-  bench::write_file(file, html_of(page));
+  files::write_file(file, html_of(page));
 }
 
 TextPage::TextPage(std::string_view title, std::string_view style) {
@@ -73,7 +73,7 @@ TextPage::TextPage(std::string_view title, std::string_view style) {
 }
 
 void TextPage::write(const std::filesystem::path& file) const {
-  bench::write_file(file, html_ + "</body>\n</html>\n");
+  files::write_file(file, html_ + "</body>\n</html>\n");
 }
 
 }  // namespace lcs::report

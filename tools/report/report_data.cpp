@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -61,7 +62,7 @@ Json json_of(std::optional<double> figure) {
 /// Label and tooltip of each metric for the page.
 Json metrics_json() {
   Json all = Json::object();
-  for (const bench::Metric& metric : bench::metrics()) {
+  for (const scoring::Metric& metric : scoring::metrics()) {
     all[metric.key] = {{"label", metric.heading()}, {"title", metric.tooltip()}};
   }
   return all;
@@ -92,8 +93,8 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
 /// \param whole all figures; else only the table's figures.
 Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences, bool whole) {
   Json figures = Json::object();
-  for (const bench::Metric& metric : bench::metrics()) {
-    if (!whole && std::ranges::find(metric.shown, bench::Table::report) == metric.shown.end())
+  for (const scoring::Metric& metric : scoring::metrics()) {
+    if (!whole && std::ranges::find(metric.shown, scoring::Table::report) == metric.shown.end())
       continue;
     const auto now = suite::over_seeds(scenario, metric.key);
     if (!now) continue;
@@ -108,7 +109,7 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
   Json groups = Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
     Json figures = Json::object();
-    for (const bench::Metric& metric : bench::metrics()) {
+    for (const scoring::Metric& metric : scoring::metrics()) {
       const auto now = suite::over_group(suite, group, metric.key);
       if (!now) continue;
       figures[metric.key] = {{"mean", json_of(now)}};
@@ -126,7 +127,7 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
 
 Json criteria_of(const RunResult& run) {
   Json criteria = Json::array();
-  for (const bench::JudgedCriterion& criterion : run.criteria) {
+  for (const scoring::JudgedCriterion& criterion : run.criteria) {
     criteria.push_back({{"metric", criterion.metric},
                         {"min", json_of(criterion.min)},
                         {"max", json_of(criterion.max)},
@@ -141,19 +142,22 @@ Json criteria_of(const RunResult& run) {
 /// A cell's number with five digits, enough for the pixels of a plot; null for an empty cell.
 Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
-  const std::optional<double> number = bench::number_in<double>(cell);
+  const std::optional<double> number = files::number_in<double>(cell);
   if (!number) throw std::invalid_argument(fmt::format("'{}' is not a number", cell));
-  return bench::parse_json<Json>(fmt::format("{:.5g}", *number));
+  return files::parse_json<Json>(fmt::format("{:.5g}", *number));
 }
 
-Json frames_of(const fs::path& file) {
+/// The plotted columns of a run's frames.csv; null if there is no such file.
+Json frames_in(const fs::path& folder) {
+  const fs::path file = folder / scoring::kFramesFile;
+  if (!fs::exists(file)) return nullptr;
   // A frame takes some 200 bytes.
   constexpr input::FileKind kFramesTable{input::kGibibyte, "run the suite again"};
   input::InputFile input(file, kFramesTable);
   std::string line;
   input.next_line(line);
   const std::string header_line = line;
-  const std::vector<std::string_view> header = bench::fields_of(header_line);
+  const std::vector<std::string_view> header = files::fields_of(header_line);
   Json columns = Json::object();
   for (const char* name : kCurves) {
     if (std::ranges::find(header, name) == header.end()) {
@@ -162,7 +166,7 @@ Json frames_of(const fs::path& file) {
     columns[name] = Json::array();
   }
   while (input.next_line(line)) {
-    std::vector<std::string_view> cells = bench::fields_of(line);
+    std::vector<std::string_view> cells = files::fields_of(line);
     cells.resize(std::max(cells.size(), header.size()));
     for (std::size_t i = 0; i < header.size(); ++i) {
       const auto column = columns.find(std::string(header[i]));
@@ -177,19 +181,18 @@ Json frames_of(const fs::path& file) {
   return columns;
 }
 
-Json event_json(const bench::Event& event) {
+Json event_json(const scoring::ScoredEvent& event) {
   Json reasons = Json::array();
-  for (const auto& [reason, corners] : event.reasons) {
-    reasons.push_back({{"word", text_of(reason).word},
-                       {"meaning", text_of(reason).meaning},
-                       {"corners", corners}});
-  }
-  for (const auto& [step, corners] : event.steps) {
-    reasons.push_back(
-        {{"word", text_of(step).word}, {"meaning", text_of(step).meaning}, {"corners", corners}});
-  }
+  const auto add_reasons = [&](const auto& of_corners) {
+    for (const auto& [reason, corners] : of_corners) {
+      const auto& [word, meaning] = text_of(reason);
+      reasons.push_back({{"word", word}, {"meaning", meaning}, {"corners", corners}});
+    }
+  };
+  add_reasons(event.reasons);
+  add_reasons(event.steps);
   Json views = Json::array();
-  for (const bench::EventView& view : event.views) {
+  for (const scoring::EventView& view : event.views) {
     views.push_back({{"frame", view.frame}, {"t_s", view.t_s}, {"jpeg", view.jpeg_base64}});
   }
   return {{"kind", text_of(event.kind).word},
@@ -208,30 +211,21 @@ Json event_json(const bench::Event& event) {
           {"views", views}};
 }
 
-/// The plotted columns of a run's frames.csv; null if there is no such file.
-Json frames_in(const fs::path& folder) {
-  const fs::path file = folder / bench::kFramesFile;
-  return fs::exists(file) ? frames_of(file) : Json(nullptr);
-}
-
-using Events = std::optional<std::vector<bench::Event>>;
+using Events = std::optional<std::vector<scoring::ScoredEvent>>;
 
 Events events_in(const fs::path& folder) {
-  const fs::path file = folder / bench::kEventsFile;
-  return fs::exists(file) ? Events(bench::read_events(file)) : std::nullopt;
+  const fs::path file = folder / scoring::kEventsFile;
+  return fs::exists(file) ? Events(scoring::read_events(file)) : std::nullopt;
 }
 
-/// Whether two events may be the same: both missed or both false, same family, same object, and
-/// overlapping frames.
-bool are_alike(const bench::Event& a, const bench::Event& b) {
-  return family_of(a.kind) == family_of(b.kind) &&
-         (a.counted_corners > 0) == (b.counted_corners > 0) && a.object_name == b.object_name &&
-         a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
-}
-
-bool has_like(const std::vector<bench::Event>& events, const bench::Event& event) {
-  return std::ranges::any_of(events,
-                             [&](const bench::Event& other) { return are_alike(event, other); });
+/// Whether any of the events may be the same: both missed or both false, same family, same object,
+/// and overlapping frames.
+bool has_like(const std::vector<scoring::ScoredEvent>& events, const scoring::ScoredEvent& a) {
+  return std::ranges::any_of(events, [&](const scoring::ScoredEvent& b) {
+    return family_of(a.kind) == family_of(b.kind) &&
+           (a.counted_corners > 0) == (b.counted_corners > 0) && a.object_name == b.object_name &&
+           a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
+  });
 }
 
 /// The baseline's curves and its vanished events, without pictures. Marks new ones in `events_now`.
@@ -244,7 +238,7 @@ Json before_json(const fs::path& folder, const Events& events, Json& events_now)
     for (std::size_t i = 0; i < events->size(); ++i) {
       events_now[i]["is_new"] = !has_like(*former, (*events)[i]);
     }
-    for (const bench::Event& event : *former) {
+    for (const scoring::ScoredEvent& event : *former) {
       if (has_like(*events, event)) continue;
       before["gone"].push_back(event_json(event));
       before["gone"].back()["views"] = Json::array();
@@ -264,14 +258,14 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                {"wall_s", json_of(run.wall_s)},
                {"command", run.command},
                {"criteria", criteria_of(run)},
-               {"warnings", bench::lines_of(run.warnings)},
+               {"warnings", recording::lines_of(run.warnings)},
                {"folder", run.folder.generic_string()},
                {"metrics", Json::object()},
                {"frames", nullptr},
                {"events", nullptr},
                {"before", nullptr}};
   if (!whole) return json;
-  for (const bench::Metric& metric : bench::metrics()) {
+  for (const scoring::Metric& metric : scoring::metrics()) {
     const auto figure = suite::figure_of(run, metric.key);
     if (figure) json["metrics"][metric.key] = *figure;
   }
@@ -281,7 +275,7 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   const Events events = events_in(folder);
   if (events) {
     json["events"] = Json::array();
-    for (const bench::Event& event : *events) json["events"].push_back(event_json(event));
+    for (const scoring::ScoredEvent& event : *events) json["events"].push_back(event_json(event));
   }
   const ScenarioResult* other = baseline ? suite::find(baseline->suite, scenario.name) : nullptr;
   const RunResult* former = other ? suite::find(*other, run.seed) : nullptr;
@@ -350,10 +344,9 @@ Json words_of(const std::vector<suite::Standing>& standings) {
   return words;
 }
 
-Json remarks_of(const suite::Verdict& verdict) {
+Json remarks_of(const suite::SuiteVerdict& verdict) {
   Json remarks = Json::array();
-  for (const suite::Remark& remark : verdict.remarks) {
-    if (std::ssize(remarks) == kMostRemarks) break;
+  for (const suite::Remark& remark : verdict.remarks | std::views::take(kMostRemarks)) {
     remarks.push_back({{"scenario", remark.scenario},
                        {"standings", words_of(remark.standings)},
                        {"reasons", remark.reasons}});
@@ -363,11 +356,11 @@ Json remarks_of(const suite::Verdict& verdict) {
 
 /// The names of the scenarios that the page shows as a whole: those with remarks, worst first, then
 /// those with the lowest F1.
-std::set<std::string> shown_whole(const SuiteResult& suite, const suite::Verdict& verdict) {
+std::set<std::string> shown_whole(const SuiteResult& suite, const suite::SuiteVerdict& verdict) {
   std::vector<std::pair<double, std::string>> order;
   for (const ScenarioResult& scenario : suite.scenarios) {
     const auto remark = std::ranges::find(verdict.remarks, scenario.name, &suite::Remark::scenario);
-    const auto f1 = suite::over_seeds(scenario, bench::kF1);
+    const auto f1 = suite::over_seeds(scenario, scoring::kF1);
     const auto rank = static_cast<double>(remark - verdict.remarks.end());
     const double place = rank < 0 ? rank : f1 ? f1->mean : 2;  // no F1 is below 0
     order.emplace_back(place, scenario.name);
@@ -381,7 +374,7 @@ std::set<std::string> shown_whole(const SuiteResult& suite, const suite::Verdict
 }
 
 /// The page's data. The budget limits only the pictures.
-Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Against* against,
+Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict, const Against* against,
              std::size_t budget) {
   const SuiteInFolder* baseline = against ? &against->baseline : nullptr;
   const suite::Comparison* comparison = against ? &against->comparison : nullptr;
@@ -402,7 +395,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
       {"baseline", nullptr},
       {"is_run", false},
       {"metrics", metrics_json()},
-      {"columns", bench::keys_in(bench::Table::report)},
+      {"columns", scoring::keys_in(scoring::Table::report)},
       {"groups", groups_of(suite.suite, of_groups)},
       {"scenarios", Json::array()}};
   if (baseline) {
@@ -424,26 +417,26 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
 
 }  // namespace
 
-std::string report_data(const SuiteInFolder& suite, const suite::Verdict& verdict,
+std::string report_data(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
                         const Against* against, std::size_t picture_budget) {
-  return bench::json_text(data_of(suite, verdict, against, picture_budget));
+  return files::json_text(data_of(suite, verdict, against, picture_budget));
 }
 
 std::string run_report_data(const SuiteInFolder& suite) {
   Json data = data_of(suite, suite::verdict_of(suite, nullptr, nullptr), nullptr, kPictureBudget);
   data["is_run"] = true;
-  const fs::path video = suite.folder / bench::kVideoFile;
+  const fs::path video = suite.folder / output::kVideoFile;
   if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {
     data["video_left_out_mb"] = fs::file_size(video) / 1'000'000;
   } else if (fs::exists(video)) {
     constexpr input::FileKind kVideo{kVideoBudget, "run the scenario again"};
-    data["video"] = bench::base64(input::read_file(video, kVideo));
+    data["video"] = scoring::base64(input::read_file(video, kVideo));
   }
-  return bench::json_text(data);
+  return files::json_text(data);
 }
 
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::Verdict& verdict, const Against* against) {
+                  const suite::SuiteVerdict& verdict, const Against* against) {
   const std::string title = "lcs suite: " + suite.suite.detector;
   const std::string data = report_data(suite, verdict, against);
   write_page(file,
@@ -454,7 +447,8 @@ void write_run_report(const std::filesystem::path& file, const suite::SuiteInFol
   const std::string title = "lcs run: " + suite.suite.scenarios.at(0).name;
   const std::string data = run_report_data(suite);
   write_page(
-      file, {.title = title, .data = data, .script = kReportJs, .where_else = bench::kMetricsFile});
+      file,
+      {.title = title, .data = data, .script = kReportJs, .where_else = scoring::kMetricsFile});
 }
 
 }  // namespace lcs::report

@@ -28,7 +28,7 @@ struct Against {
 /// \throws bench::OutputError; std::runtime_error that names an unreadable frames.csv or
 ///   events.json of the suite. The page itself reports unreadable files of the baseline.
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::Verdict& verdict, const Against* against);
+                  const suite::SuiteVerdict& verdict, const Against* against);
 
 /// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
 /// \throws as `write_report`.
@@ -40,7 +40,7 @@ inline constexpr std::size_t kPictureBudget = 6'000'000;
 inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
 
 /// The JSON text of a suite. \throws std::runtime_error as `write_report`.
-std::string report_data(const suite::SuiteInFolder& suite, const suite::Verdict& verdict,
+std::string report_data(const suite::SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
                         const Against* against, std::size_t picture_budget = kPictureBudget);
 
 /// The JSON text of a single run, with its video if its folder has one.

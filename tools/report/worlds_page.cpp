@@ -53,7 +53,7 @@ std::vector<double> figures_of(const SuiteResult& by, const Worlds& worlds,
   return figures;
 }
 
-Html cell(const SuiteResult& by, const Worlds& worlds, const bench::Metric& metric) {
+Html cell(const SuiteResult& by, const Worlds& worlds, const scoring::Metric& metric) {
   const std::vector<double> figures = figures_of(by, worlds, metric.key);
   const int decimals = metric.scale.decimals;
   if (figures.empty()) return {"<td class=\"nothing\">–</td>"};
@@ -107,7 +107,7 @@ class WorldsPage : public TextPage {
         "<b class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
     add("<h2>{} by family</h2>\n<div "
         "class=\"scroll\"><table>\n<thead><tr><th>family</th>",
-        bench::metric(bench::kF1).label);
+        scoring::metric(scoring::kF1).label);
     for (const SuiteResult* by : detectors_) add("<th>{}</th>", by->detector);
     add("</tr></thead>\n<tbody>\n");
     for (const auto& [family, worlds] : families_) {
@@ -121,24 +121,24 @@ class WorldsPage : public TextPage {
 
   void f1_cells(const Worlds& worlds) {
     for (const SuiteResult* by : detectors_) {
-      add("{}", cell(*by, worlds, bench::metric(bench::kF1)));
+      add("{}", cell(*by, worlds, scoring::metric(scoring::kF1)));
     }
     add("</tr>\n");
   }
 
   /// Adds a table with a row per detector.
   void table(const Worlds& worlds) {
-    const std::vector<std::string_view> keys = bench::keys_in(bench::Table::worlds);
+    const std::vector<std::string_view> keys = scoring::keys_in(scoring::Table::worlds);
     add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
     for (const std::string_view key : keys) {
-      const bench::Metric& metric = bench::metric(key);
+      const scoring::Metric& metric = scoring::metric(key);
       add("<th title=\"{}\">{}</th>", metric.tooltip(), metric.heading());
     }
     add("</tr></thead>\n<tbody>\n");
     for (const SuiteResult* by : detectors_) {
       add("<tr><td>{}</td>", by->detector);
       for (const std::string_view key : keys) {
-        add("{}", cell(*by, worlds, bench::metric(key)));
+        add("{}", cell(*by, worlds, scoring::metric(key)));
       }
       add("</tr>\n");
     }
@@ -147,7 +147,7 @@ class WorldsPage : public TextPage {
 
   /// Adds a figure that does not depend on the detector, rounded.
   void say(const Worlds& worlds, std::string_view figure, const char* what) {
-    const auto mean = bench::mean(figures_of(suite_, worlds, figure));
+    const auto mean = scoring::mean(figures_of(suite_, worlds, figure));
     if (mean) add("<span>{:.0f} {}</span>", *mean, what);
   }
 

@@ -9,7 +9,7 @@
 #include "scenarios/input/spelling.h"
 #include "tools/scoring/metrics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 std::string place(const input::Source& source) {
@@ -103,4 +103,4 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
   return judged;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -10,7 +10,7 @@
 #include "scenarios/scenario.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// \throws input::Error at the line of the first criterion with an unknown metric; the message
 ///   names the most similar known one.
@@ -38,7 +38,7 @@ struct JudgedCriterion {
   std::string over = "seed";  ///< as `scenario::Criterion::over`; if not "seed", a suite judges it
   std::string place = {};     ///< such as "crossing.yaml:31"
   std::string message = {};   ///< such as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
-                             ///< 0.6"; empty if met
+                              ///< 0.6"; empty if met
 };
 
 /// "at least 0.6 and at most 0.9".
@@ -48,4 +48,4 @@ std::string bounds(std::optional<double> min, std::optional<double> max);
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics);
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -13,7 +13,7 @@
 #include "tools/scoring/score_rebels.h"
 #include "tools/scoring/score_squares.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 /// Most consecutive frames without an error within one event.
@@ -57,7 +57,7 @@ struct Part {
   int corners = 0;  // the missed or false ones
   int radial_corners = 0, counted_corners = 0, circles = 0;
   std::map<Reason, int> reasons;
-  Box box;
+  recording::Box box;
   std::optional<EventKind> cause;   // of a fault of squares
   std::map<SquareStep, int> steps;  // of its object's corners
 
@@ -78,20 +78,10 @@ void add_to(Part& sum, const Part& part) {
   add_to(sum.steps, part.steps);
 }
 
-void add_corner(const FrameRecord& frame, std::size_t i, Part& part) {
+void add_corner(const recording::FrameRecord& frame, std::size_t i, Part& part) {
   ++part.corners;
   part.radial_corners += frame.corner_truth[i].radial;
   ++part.reasons[frame.reasons.empty() ? Reason::unknown : frame.reasons.at(i)];
-}
-
-/// The object's box in pixel centres, both ends included.
-std::optional<Box> box_in(const FrameRecord& frame, int object) {
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (truth.object == object) {
-      return Box{Vec2(truth.left, truth.top), Vec2(truth.right - 1, truth.bottom - 1)};
-    }
-  }
-  return std::nullopt;
 }
 
 /// The counts, largest first.
@@ -102,21 +92,25 @@ std::vector<std::pair<Cause, int>> by_count(const std::map<Cause, int>& counts) 
   return sorted;
 }
 
+/// Boxes by object, in pixel centres, both ends included.
+using Boxes = std::map<int, recording::Box>;
+
 /// All of a frame that the views of events show.
 struct Moment {
   std::size_t position = 0;  // in the run
   int frame = 0;
   std::int64_t t_ns = 0;
-  std::map<int, Box> boxes;  // by object
+  Boxes boxes;
 
-  Moment(std::size_t place, const FrameRecord& record)
+  Moment(std::size_t place, const recording::FrameRecord& record)
       : position(place), frame(record.index), t_ns(record.t_ns) {
     for (const sim::ObjectTruth& truth : record.object_truth) {
-      boxes.try_emplace(truth.object, *box_in(record, truth.object));
+      boxes.try_emplace(truth.object, Vec2(truth.left, truth.top),
+                        Vec2(truth.right - 1, truth.bottom - 1));
     }
   }
 
-  EventView view(const Box& box) const {
+  EventView view(const recording::Box& box) const {
     return {.frame = frame,
             .t_s = static_cast<double>(t_ns) * 1e-9,
             .centre_px = box.center(),
@@ -136,7 +130,7 @@ struct Run {
   std::size_t last = 0;  // position
   int frames = 0;        // of which each has a part
   Part sum;
-  Box last_box;
+  recording::Box last_box;
   std::map<EventKind, int> causes;      // frames with an error of squares
   std::vector<EventView> views;         // of the frame before the event, then of its errors
   std::optional<EventView> view_after;  // of the frame after the event
@@ -200,8 +194,8 @@ class Errors {
 
   const std::vector<Run>& runs() const { return runs_; }
 
-  Event event(EventKind kind, const Run& run, const RunInfo& of) const {
-    Event event;
+  ScoredEvent event(EventKind kind, const Run& run, const recording::RunInfo& of) const {
+    ScoredEvent event;
     event.kind = kind;
     event.object = object_;
     for (const sim::Object& named : of.objects) {
@@ -222,7 +216,7 @@ class Errors {
 
  private:
   /// The view of a frame beside the run; absent if the object is not in it.
-  std::optional<EventView> beside(const Moment& moment, const Box& box) const {
+  std::optional<EventView> beside(const Moment& moment, const recording::Box& box) const {
     if (object_ == 0) return moment.view(box);
     const auto own = moment.boxes.find(object_);
     return own == moment.boxes.end() ? std::nullopt : std::optional(moment.view(own->second));
@@ -242,8 +236,8 @@ Errors& errors_of(ErrorsByObject& all, int object) {
 // ---- Missed
 
 /// The rebel corners of each object that recall counts.
-std::map<int, Part> missed_parts(const FrameRecord& frame,
-                                 const std::vector<CornerOutcome>& outcomes) {
+std::map<int, Part> missed_parts(const recording::FrameRecord& frame,
+                                 const std::vector<CornerOutcome>& outcomes, const Boxes& boxes) {
   std::map<int, Part> parts;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const bool missed = outcomes[i] == CornerOutcome::missed;
@@ -254,14 +248,16 @@ std::map<int, Part> missed_parts(const FrameRecord& frame,
     add_corner(frame, i, part);
     part.box.extend(frame.corners_px[i].cast<double>());
   }
-  for (auto& [object, part] : parts) part.box = box_in(frame, object).value_or(part.box);
+  for (auto& [object, part] : parts) {
+    if (const auto own = boxes.find(object); own != boxes.end()) part.box = own->second;
+  }
   return parts;
 }
 
 // ---- False
 
 /// Groups these corners of a frame: neighbours closer than `kGroupReach_px` share a group.
-std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
+std::vector<std::vector<std::size_t>> groups_of(const recording::FrameRecord& frame,
                                                 std::vector<std::size_t> corners) {
   std::vector<std::vector<std::size_t>> groups;
   while (!corners.empty()) {
@@ -283,12 +279,13 @@ std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
 }
 
 /// The number of the moving object with the nearest box; 0 if nothing moves.
-int nearest_mover(const FrameRecord& frame, const Box& box) {
+int nearest_mover(const recording::FrameRecord& frame, const Boxes& boxes,
+                  const recording::Box& box) {
   int nearest = 0;
   double least = 0;
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (!truth.moving) continue;
-    const double d = box_in(frame, truth.object)->exteriorDistance(box);
+    const double d = boxes.at(truth.object).exteriorDistance(box);
     if (nearest == 0 || d < least) std::tie(nearest, least) = std::tuple(truth.object, d);
   }
   return nearest;
@@ -297,7 +294,7 @@ int nearest_mover(const FrameRecord& frame, const Box& box) {
 /// Groups of false rebels and false circles, tracked through the frames.
 class FalseGroups {
  public:
-  void add_frame(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
+  void add_frame(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
                  const Moments& moments) {
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -316,6 +313,7 @@ class FalseGroups {
       });
       follow(moments.now->position, part);
     }
+    const Boxes& boxes = moments.now->boxes;
     std::map<int, Part> halos;
     for (const std::vector<std::size_t>& group : groups_of(frame, std::move(corners))) {
       if (group.size() < kCornersToFind) continue;
@@ -326,13 +324,13 @@ class FalseGroups {
       }
       const Vec2 half = 0.5 * part.box.sizes();
       if (has_mover_under(frame, part.box.center(), half.norm())) {
-        merge(part, halos[nearest_mover(frame, part.box)]);
+        merge(part, halos[nearest_mover(frame, boxes, part.box)]);
       } else {
         follow(moments.now->position, part);
       }
     }
     for (auto& [object, halo] : halos) {
-      if (const auto box = box_in(frame, object)) halo.box.extend(*box);
+      if (const auto own = boxes.find(object); own != boxes.end()) halo.box.extend(own->second);
       errors_of(halos_, object).add(halo, true, moments);
     }
     for (Track& track : tracks_) {
@@ -345,9 +343,10 @@ class FalseGroups {
     for (auto& [object, errors] : halos_) errors.look(now);
   }
 
-  void add_to(std::vector<Event>& events, const RunInfo& of) const {
+  void add_to(std::vector<ScoredEvent>& events, const recording::RunInfo& of) const {
     for (const Track& track : tracks_) {
-      Event event = track.errors.event(EventKind::false_alarm, track.errors.runs().front(), of);
+      ScoredEvent event =
+          track.errors.event(EventKind::false_alarm, track.errors.runs().front(), of);
       if (event.circles > 0) event.kind = EventKind::circle_false;
       events.push_back(std::move(event));
     }
@@ -366,7 +365,7 @@ class FalseGroups {
   };
 
   static void merge(const Part& part, Part& sum) {
-    bench::add_to(sum, part);
+    scoring::add_to(sum, part);
     sum.box.extend(part.box);
   }
 
@@ -395,21 +394,22 @@ class FalseGroups {
 // ---- Squares
 
 /// The reason that an eligible object has no right square.
-EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
+EventKind cause_of(const recording::FrameRecord& frame, const std::set<int>& eligible,
                    const sim::ObjectTruth& object) {
-  const Box own = box_of(object);
+  const recording::Box own = recording::box_of(object);
   int pieces = 0;
   double best_iou = 0;
   bool is_merged = false;
   for (const Square& square : frame.layers.squares) {
-    const Box box = box_of(square);
-    const double common = common_px2(own, box);
-    best_iou = std::max(best_iou, intersection_over_union(own, box));
+    const recording::Box box = recording::box_of(square);
+    const double common = recording::common_px2(own, box);
+    best_iou = std::max(best_iou, recording::intersection_over_union(own, box));
     pieces += common > kMostOfIt * box.volume();
     if (common <= kMostOfIt * own.volume()) continue;
     is_merged |= std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& other) {
       return other.object != object.object && eligible.contains(other.object) &&
-             common_px2(box_of(other), box) > kMostOfIt * box_of(other).volume();
+             recording::common_px2(recording::box_of(other), box) >
+                 kMostOfIt * recording::box_of(other).volume();
     });
   }
   return pieces > 1             ? EventKind::square_split
@@ -418,7 +418,7 @@ EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
                                 : EventKind::square_size;
 }
 
-std::map<SquareStep, int> steps_of(const FrameRecord& frame, int object) {
+std::map<SquareStep, int> steps_of(const recording::FrameRecord& frame, int object) {
   std::map<SquareStep, int> steps;
   std::map<int, const Edge*> edges;  // by corner
   for (const auto* kind : {&frame.layers.normal_edges, &frame.layers.rebel_edges}) {
@@ -432,7 +432,7 @@ std::map<SquareStep, int> steps_of(const FrameRecord& frame, int object) {
     if (edge.circle < 0 || edge.circle >= std::ssize(circles)) return SquareStep::no_circle;
     const Vec2 centre = circles[static_cast<std::size_t>(edge.circle)].location;
     const bool is_in = std::ranges::any_of(frame.layers.squares, [&](const Square& square) {
-      return box_of(square).contains(centre);
+      return recording::box_of(square).contains(centre);
     });
     return is_in ? SquareStep::in_square : SquareStep::no_square;
   };
@@ -444,7 +444,7 @@ std::map<SquareStep, int> steps_of(const FrameRecord& frame, int object) {
 
 class SquareEvents {
  public:
-  void add_frame(const FrameRecord& frame, bool is_layered, const Moments& moments) {
+  void add_frame(const recording::FrameRecord& frame, bool is_layered, const Moments& moments) {
     const SquareOutcomes outcomes = square_outcomes(frame);
     const std::set<Id> wrong(outcomes.wrong.begin(), outcomes.wrong.end());
     for (const sim::ObjectTruth& object : frame.object_truth) {
@@ -455,7 +455,8 @@ class SquareEvents {
       const bool is_doubled =
           found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
             return wrong.contains(square.id) &&
-                   common_px2(box_of(square), box_of(object)) > kMostOfIt * box_of(square).volume();
+                   recording::common_px2(recording::box_of(square), recording::box_of(object)) >
+                       kMostOfIt * recording::box_of(square).volume();
           });
       Part part;
       part.box = moments.now->boxes.at(object.object);
@@ -468,12 +469,14 @@ class SquareEvents {
     }
     for (const Square& square : frame.layers.squares) {
       const bool touches = std::ranges::any_of(frame.object_truth, [&](const auto& object) {
-        return intersection_over_union(box_of(object), box_of(square)) >= kLeastIou ||
-               common_px2(box_of(object), box_of(square)) > kMostOfIt * box_of(square).volume();
+        return recording::intersection_over_union(recording::box_of(object),
+                                                  recording::box_of(square)) >= kLeastIou ||
+               recording::common_px2(recording::box_of(object), recording::box_of(square)) >
+                   kMostOfIt * recording::box_of(square).volume();
       });
       if (touches || !wrong.contains(square.id)) continue;
       Part part;
-      part.box = box_of(square);
+      part.box = recording::box_of(square);
       part.cause = EventKind::square_false;
       for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
         if (part.box.contains(frame.corners_px[i].cast<double>())) add_corner(frame, i, part);
@@ -488,38 +491,33 @@ class SquareEvents {
   }
 
   /// Most frames first.
-  std::vector<Event> events(const RunInfo& of) const {
-    std::vector<Event> all;
+  std::vector<ScoredEvent> events(const recording::RunInfo& of) const {
+    std::vector<ScoredEvent> all;
     for (const auto& [object, errors] : objects_) {
-      for (const Run& run : errors.runs()) add_missed(errors, run, of, all);
+      for (const Run& run : errors.runs()) {
+        int frames = 0;
+        for (const auto& [cause, count] : run.causes) frames += count;
+        if (frames < kLeastFrames) continue;
+        const auto most = std::ranges::max_element(run.causes, {},
+                                                   [](const auto& cause) { return cause.second; });
+        ScoredEvent& event = all.emplace_back(errors.event(most->first, run, of));
+        event.frames = frames;
+        event.of_frames = run.frames;
+        event.steps = by_count(run.sum.steps);
+        for (const auto& [step, corners] : event.steps) event.corners += corners;
+      }
     }
     for (const auto& [square, errors] : false_) {
       for (const Run& run : errors.runs()) {
         if (run.frames < kLeastFrames) continue;
-        all.push_back(errors.event(EventKind::square_false, run, of));
-        all.back().frames = run.frames;
+        all.emplace_back(errors.event(EventKind::square_false, run, of)).frames = run.frames;
       }
     }
-    std::ranges::stable_sort(all, std::greater(), &Event::frames);
+    std::ranges::stable_sort(all, std::greater(), &ScoredEvent::frames);
     return all;
   }
 
  private:
-  static void add_missed(const Errors& errors, const Run& run, const RunInfo& of,
-                         std::vector<Event>& all) {
-    int frames = 0;
-    for (const auto& [cause, count] : run.causes) frames += count;
-    if (frames < kLeastFrames) return;
-    const auto most =
-        std::ranges::max_element(run.causes, {}, [](const auto& cause) { return cause.second; });
-    Event event = errors.event(most->first, run, of);
-    event.frames = frames;
-    event.of_frames = run.frames;
-    event.steps = by_count(run.sum.steps);
-    for (const auto& [step, corners] : event.steps) event.corners += corners;
-    all.push_back(std::move(event));
-  }
-
   ErrorsByObject objects_;  // of frames in which a square should be there
   std::map<Id, Errors> false_;
 };
@@ -534,9 +532,9 @@ const EventKindText& text_of(SquareStep step) {
   return kSteps[static_cast<std::size_t>(step)];
 }
 
-EventSums sums_of(const std::vector<Event>& events) {
+EventSums sums_of(const std::vector<ScoredEvent>& events) {
   EventSums sums;
-  for (const Event& event : events) {
+  for (const ScoredEvent& event : events) {
     if (family_of(event.kind) == EventFamily::squares) {
       sums.squares[event.kind] += event.frames;
       continue;
@@ -549,64 +547,55 @@ EventSums sums_of(const std::vector<Event>& events) {
 }
 
 void EventSums::add(const EventSums& other) {
-  const auto add = [](auto& to, const auto& from) {
-    for (const auto& [cause, count] : from) to[cause] += count;
-  };
-  add(missed, other.missed);
-  add(false_ones, other.false_ones);
-  add(squares, other.squares);
+  add_to(missed, other.missed);
+  add_to(false_ones, other.false_ones);
+  add_to(squares, other.squares);
 }
 
 struct EventFinder::State {
-  RunInfo run;
+  recording::RunInfo run;
   std::size_t frames = 0;
   Moments moments = {};
   ErrorsByObject missed = {};
   FalseGroups false_groups = {};
   SquareEvents squares = {};
-
-  void add_missed_to(std::vector<Event>& events, const ObjectDetections& detections) const;
 };
 
-EventFinder::EventFinder(const RunInfo& run) : state_(new State{run}) {}
+EventFinder::EventFinder(const recording::RunInfo& run) : state_(new State{run}) {}
 EventFinder::~EventFinder() = default;
 EventFinder::EventFinder(EventFinder&&) noexcept = default;
 
-void EventFinder::add(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes) {
-  if (state_->run.truth == Truth::unknown) return;  // errors are undefined without truth
+void EventFinder::add(const recording::FrameRecord& frame,
+                      const std::vector<CornerOutcome>& outcomes) {
+  if (state_->run.truth == recording::Truth::unknown) return;  // errors are undefined without truth
   auto& [run, frames, moments, missed, false_groups, squares] = *state_;
   moments.before = std::exchange(moments.now, Moment(frames++, frame));
   for (auto& [object, errors] : missed) errors.look(*moments.now);
   false_groups.look(*moments.now);
   squares.look(*moments.now);
-  if (frame.index < kSightings) return;
-  for (const auto& [object, part] : missed_parts(frame, outcomes)) {
+  if (frame.index < recording::kSightings) return;
+  for (const auto& [object, part] : missed_parts(frame, outcomes, moments.now->boxes)) {
     errors_of(missed, object).add(part, 2 * part.corners > part.counted_corners, moments);
   }
   false_groups.add_frame(frame, outcomes, moments);
-  if (run.truth != Truth::all) return;  // the objects are unknown
+  if (run.truth != recording::Truth::all) return;  // the objects are unknown
   squares.add_frame(frame, run.detector.layered, moments);
 }
 
-void EventFinder::State::add_missed_to(std::vector<Event>& events,
-                                       const ObjectDetections& detections) const {
-  for (const auto& [object, errors] : missed) {
+std::vector<ScoredEvent> EventFinder::events(const ObjectDetections& detections) const {
+  std::vector<ScoredEvent> events;
+  for (const auto& [object, errors] : state_->missed) {
     const std::optional<int> found_at = detections.at(object).found_at;
     for (const Run& part : errors.runs()) {
       if (part.sum.corners < kCornersToFind) continue;
       const EventKind kind = !found_at                      ? EventKind::never_found
                              : *found_at > part.first_frame ? EventKind::found_late
                                                             : EventKind::lost;
-      events.push_back(errors.event(kind, part, run));
+      events.push_back(errors.event(kind, part, state_->run));
     }
   }
-}
-
-std::vector<Event> EventFinder::events(const ObjectDetections& detections) const {
-  std::vector<Event> events;
-  state_->add_missed_to(events, detections);
   state_->false_groups.add_to(events, state_->run);
-  const auto rank = [](const Event& event) {  // rebel events have no circles
+  const auto rank = [](const ScoredEvent& event) {  // rebel events have no circles
     return std::tuple(family_of(event.kind), -event.circles, -event.corners);
   };
   std::ranges::stable_sort(events, {}, rank);
@@ -614,9 +603,10 @@ std::vector<Event> EventFinder::events(const ObjectDetections& detections) const
   return events;
 }
 
-void keep_worst(std::vector<Event>& events, std::size_t most) {
+void keep_worst(std::vector<ScoredEvent>& events, std::size_t most) {
   std::map<EventFamily, std::size_t> kept;
-  std::erase_if(events, [&](const Event& event) { return kept[family_of(event.kind)]++ >= most; });
+  std::erase_if(events,
+                [&](const ScoredEvent& event) { return kept[family_of(event.kind)]++ >= most; });
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -17,7 +17,7 @@
 #include "tools/recording/recording.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 inline constexpr const char* kEventsFile = "events.json";
 
@@ -66,7 +66,7 @@ struct EventView {
   std::string jpeg_base64;  ///< the annotated picture; empty: none
 };
 
-struct Event {
+struct ScoredEvent {
   EventKind kind = EventKind::lost;
   int first_frame = 0, last_frame = 0;  ///< indices
   int object = 0;  ///< number of the missed object, or of the one with a halo; 0: none
@@ -95,17 +95,17 @@ inline constexpr std::size_t kMostEvents = 5;
 class EventFinder {
  public:
   /// Uses the run's detector, truth and names of objects.
-  explicit EventFinder(const RunInfo& run);
+  explicit EventFinder(const recording::RunInfo& run);
   ~EventFinder();
   EventFinder(EventFinder&&) noexcept;
 
   /// \param outcomes of the frame's corners.
-  void add(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
+  void add(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
 
   /// The rebel events, most corners first, then the circle events, most circles first, then the
   /// square events, most frames first. Square events have no steps if the detector has no edges.
   /// \param detections of the whole run (`Scorer::detections`).
-  std::vector<Event> events(const std::map<int, ObjectDetection>& detections) const;
+  std::vector<ScoredEvent> events(const std::map<int, ObjectDetection>& detections) const;
 
  private:
   struct State;
@@ -113,7 +113,7 @@ class EventFinder {
 };
 
 /// Keeps the first `most` events of each family. \param events in the order of `EventFinder`.
-void keep_worst(std::vector<Event>& events, std::size_t most);
+void keep_worst(std::vector<ScoredEvent>& events, std::size_t most);
 
 /// The total costs of all events of a run, by cause.
 struct EventSums {
@@ -122,18 +122,18 @@ struct EventSums {
 
   void add(const EventSums& other);
 };
-EventSums sums_of(const std::vector<Event>& events);
+EventSums sums_of(const std::vector<ScoredEvent>& events);
 
 /// \param sums over all events of the run; `events` may be only the worst. \throws OutputError
-void write_events(const std::filesystem::path& file, const std::vector<Event>& events,
+void write_events(const std::filesystem::path& file, const std::vector<ScoredEvent>& events,
                   const EventSums& sums);
 
 /// \throws std::runtime_error that names the file and the fault.
-std::vector<Event> read_events(const std::filesystem::path& file);
+std::vector<ScoredEvent> read_events(const std::filesystem::path& file);
 /// The sums in a file of events. A file of an earlier version has none; its events are summed.
 /// \throws as `read_events`.
 EventSums read_event_sums(const std::filesystem::path& file);
 
 std::string base64(std::string_view bytes);
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -12,7 +12,7 @@
 #include "tools/recording/recording.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 inline constexpr const char* kMetricsFile = "metrics.json";
 inline constexpr const char* kFramesFile = "frames.csv";
@@ -30,14 +30,14 @@ Metrics read_metrics(const std::filesystem::path& path);
 class FramesWriter {
  public:
   /// Uses the detector and the truth of the run. \throws OutputError
-  FramesWriter(const std::filesystem::path& path, const RunInfo& run);
+  FramesWriter(const std::filesystem::path& path, const recording::RunInfo& run);
   /// \throws OutputError
-  void write(const FrameRecord& frame, const RebelCounts& rebels);
+  void write(const recording::FrameRecord& frame, const RebelCounts& rebels);
   /// \throws OutputError
   void close() { file_.close(); }
 
  private:
-  OutputFile file_;
+  files::OutputFile file_;
   bool is_layered_, is_truth_known_;
 };
 
@@ -46,7 +46,7 @@ class TimesReader {
  public:
   /// \throws std::runtime_error that names the file, the line and the fault, as the others.
   explicit TimesReader(const std::filesystem::path& frames_csv);
-  void read(FrameRecord& frame);
+  void read(recording::FrameRecord& frame);
   /// To be called after the last frame. \throws also for further rows.
   void finish();
 
@@ -59,4 +59,4 @@ class TimesReader {
   int line_ = 1;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,12 +11,20 @@
 #include "tools/scoring/stages.h"
 #include "tools/scoring/statistics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 using Figure = std::optional<double>;
 
 constexpr double kRelative = 0.05;  // for figures that are not shares
+
+/// \name The sets of tables that have a metric.
+///@{
+constexpr std::array kInAll{Table::suite, Table::report, Table::worlds, Table::detectors};
+constexpr std::array kInWorlds{Table::suite, Table::report, Table::worlds};
+constexpr std::array kInSuites{Table::suite, Table::report};
+constexpr std::array kInReport{Table::report}, kInDetectors{Table::detectors};
+///@}
 
 constexpr Scale kShare{"", Direction::higher, 0.01, 0, 2};
 constexpr Scale kLostShare{"", Direction::lower, 0.01, kRelative, 2};
@@ -56,45 +65,29 @@ Figure ratio_of_circles(const Scores& s, double part, double whole) {
 
 std::vector<Metric> rebel_metrics() {
   return {
-      {"rebel.precision",
-       [](auto& s) { return precision_of(s.corners.overall); },
-       kShare,
+      {"rebel.precision", [](auto& s) { return precision_of(s.corners.overall); }, kShare,
        "precision",
        "true rebels / (true + false rebels). After the warm-up; null where recall is, as in static "
        "scenes, else 0 without a true rebel",
-       {Table::suite, Table::report, Table::worlds}},
-      {"rebel.recall",
-       [](auto& s) { return s.corners.overall.recall(); },
-       kShare,
-       "recall",
+       kInWorlds},
+      {"rebel.recall", [](auto& s) { return s.corners.overall.recall(); }, kShare, "recall",
        "share of the rebel corners with verdict rebel. Counted from frame k0 + N of their object "
        "on, whatever else the verdict is",
-       {Table::suite, Table::report, Table::worlds, Table::detectors}},
-      {"rebel.f1",
-       [](auto& s) { return s.corners.overall.f1(); },
-       kShare,
-       "F1",
-       "harmonic mean of precision and recall. 0 where recall is 0, null where recall is",
-       {Table::suite, Table::report, Table::worlds, Table::detectors}},
+       kInAll},
+      {"rebel.f1", [](auto& s) { return s.corners.overall.f1(); }, kShare, "F1",
+       "harmonic mean of precision and recall. 0 where recall is 0, null where recall is", kInAll},
       {"rebel.precision_distinct", [](auto& s) { return precision_of(s.corners.distinct); }, kShare,
        "", "precision without radial corners"},
       {"rebel.recall_distinct", [](auto& s) { return s.corners.distinct.recall(); }, kShare, "",
        "recall without radial corners"},
-      {"rebel.f1_distinct",
-       [](auto& s) { return s.corners.distinct.f1(); },
-       kShare,
-       "F1 dist.",
-       "F1 without radial corners, which move as nearer static ones would",
-       {Table::suite, Table::report}},
+      {"rebel.f1_distinct", [](auto& s) { return s.corners.distinct.f1(); }, kShare, "F1 dist.",
+       "F1 without radial corners, which move as nearer static ones would", kInSuites},
       {"rebel.precision_clear", [](auto& s) { return precision_of(s.corners.clear); }, kShare, "",
        "precision without corners at outlines. Recall is the same, as no rebel is at an outline"},
-      {"rebel.f1_clear",
-       [](auto& s) { return s.corners.clear.f1(); },
-       kShare,
-       "F1 clear",
+      {"rebel.f1_clear", [](auto& s) { return s.corners.clear.f1(); }, kShare, "F1 clear",
        "F1 without the fixed corners at outlines of movers. Its distance from 1 is what better "
        "separation of motions can gain",
-       {Table::report}},
+       kInReport},
       {"rebel.recall_radial", [](auto& s) { return s.corners.radial.recall(); }, kShare,
        "radial recall", "recall over radial corners alone"},
       {"rebel.f1_lost_outline", [](auto& s) { return lost_f1(s, Difficulty::outline); }, kLostShare,
@@ -113,29 +106,25 @@ std::vector<Metric> rebel_metrics() {
        [](auto& s) { return ratio(s.corners.overall.false_rebels, s.objects.frames); },
        lower("per frame", 0.1, 1), "false corners",
        "false rebels. For static scenes, which have no precision"},
-      {"rebel.object_recall",
-       [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
-       kShare,
-       "found",
+      {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
+       kShare, "found",
        "share of the movers that are found. A mover is found if 3 or more of its corners are "
        "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames",
-       {Table::suite, Table::report, Table::worlds}},
-      {"rebel.latency_frames_median",
-       [](auto& s) { return median(s.objects.latencies); },
+       kInWorlds},
+      {"rebel.latency_frames_median", [](auto& s) { return median(s.objects.latencies); },
        lower("frames", 0.4, 1),
        "latency",  // a median may be half-integer
        "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
        "paper's rule, which needs N sightings; 0 or 1 are possible by the default",
-       {Table::suite, Table::report}},
+       kInSuites},
       {"rebel.false_objects_per_100_frames",
        [](auto& s) {
          return ratio_of_circles(s, 100.0 * s.objects.false_circles, s.objects.frames);
        },
-       lower("per 100 frames", 1, 1),
-       "false",
+       lower("per 100 frames", 1, 1), "false",
        "rebel circles with no mover under them. There is no corner of one in the disc, no box "
        "round the centre",
-       {Table::suite, Table::report, Table::worlds, Table::detectors}},
+       kInAll},
       {"rebel.circle_recall",
        [](auto& s) { return ratio_of_circles(s, s.objects.circled, s.objects.seen); }, kShare, "",
        "share of the movers with 3 or more rebel corners that have the centre of a rebel circle in "
@@ -170,29 +159,18 @@ std::vector<Metric> square_metrics() {
   const std::string right = "right / (right + wrong) squares, at the IoU in the key (%)";
   return {
       {"square.recall_30", [](auto& s) { return s.squares.at_30.recall(); }, kShare, "", boxed},
-      {"square.recall_50",
-       [](auto& s) { return s.squares.at_50.recall(); },
-       kShare,
-       "boxed",
-       boxed,
-       {Table::suite, Table::report, Table::worlds}},
+      {"square.recall_50", [](auto& s) { return s.squares.at_50.recall(); }, kShare, "boxed", boxed,
+       kInWorlds},
       {"square.recall_70", [](auto& s) { return s.squares.at_70.recall(); }, kShare, "", boxed},
       {"square.precision_30", [](auto& s) { return s.squares.at_30.precision(); }, kShare, "",
        right},
-      {"square.precision_50",
-       [](auto& s) { return s.squares.at_50.precision(); },
-       kShare,
-       "sq prec.",
-       right,
-       {Table::suite, Table::report}},
+      {"square.precision_50", [](auto& s) { return s.squares.at_50.precision(); }, kShare,
+       "sq prec.", right, kInSuites},
       {"square.precision_70", [](auto& s) { return s.squares.at_70.precision(); }, kShare, "",
        right},
-      {"square.recall_50_movers",
-       [](auto& s) { return s.squares.movers_50.recall(); },
-       kShare,
-       "boxed movers",
-       "square.recall_50 over objects that move at any time in the run",
-       {Table::detectors}},
+      {"square.recall_50_movers", [](auto& s) { return s.squares.movers_50.recall(); }, kShare,
+       "boxed movers", "square.recall_50 over objects that move at any time in the run",
+       kInDetectors},
       {"square.recall_50_static", [](auto& s) { return s.squares.static_50.recall(); }, kShare,
        "boxed static", "square.recall_50 over objects that never move"},
       {"square.mean_iou", [](auto& s) { return mean_iou(s.squares); }, kShare, "IoU",
@@ -211,12 +189,8 @@ std::vector<Metric> square_metrics() {
        "square.recall_50 by the IoU of masks in place of boxes"},
       {"square.mask_precision_50", [](auto& s) { return masks_of(s).at_50.precision(); }, kShare,
        "", "square.precision_50 by the IoU of masks in place of boxes"},
-      {"square.mask_mean_iou",
-       [](auto& s) { return mean_iou(masks_of(s)); },
-       kShare,
-       "mask IoU",
-       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5",
-       {Table::report}},
+      {"square.mask_mean_iou", [](auto& s) { return mean_iou(masks_of(s)); }, kShare, "mask IoU",
+       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5", kInReport},
       {"square.mask_mean_iou_movers", [](auto& s) { return mean(masks_of(s).movers_iou); }, kShare,
        "", "square.mask_mean_iou over objects that move at any time in the run"},
       {"square.mask_mean_iou_static", [](auto& s) { return mean(masks_of(s).static_iou); }, kShare,
@@ -334,7 +308,7 @@ std::vector<Metric> other_metrics() {
 std::vector<double> times_of(const Scores& s, const Stage& stage) {
   std::vector<double> times;
   if (stage.is_layer && !s.detector.layered) return times;
-  for (const FrameTimes& frame : s.times) times.push_back(frame.*stage.time_ms);
+  for (const recording::FrameTimes& frame : s.times) times.push_back(frame.*stage.time_ms);
   const bool was_done = std::ranges::any_of(times, [](double ms) { return ms > 0; });
   return was_done ? times : std::vector<double>{};
 }
@@ -351,7 +325,7 @@ Figure over_fast(const Scores& s, const Stage& stage) {
 
 Figure frames_per_second(const Scores& s) {
   double seconds = 0;
-  for (const FrameTimes& times : s.times) {
+  for (const recording::FrameTimes& times : s.times) {
     seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
                        times.process_ms + times.truth_ms);
   }
@@ -366,16 +340,15 @@ std::vector<Metric> time_metrics() {
     const bool in_detectors = key == "time.filter" || key == "time.process";
     all.push_back({key + "_ms_median", [stage](auto& s) { return median(times_of(s, stage)); },
                    neutral("ms", 1), label, "median over frames of the stage's time",
-                   in_detectors ? std::vector{Table::detectors} : std::vector<Table>{}});
+                   in_detectors ? kInDetectors : std::span<const Table>()});
     all.push_back({key + "_ms_p99", [stage](auto& s) { return quantile(times_of(s, stage), 0.99); },
                    neutral("ms", 1), label.empty() ? "" : label + " p99",
                    "99th percentile over frames of the stage's time"});
     if (!stage.is_of_filter) continue;
-    all.push_back(
-        {key + "_over_fast", [stage](auto& s) { return over_fast(s, stage); }, neutral("", 1),
-         label == "filter" ? "time" : "",
-         "the stage's time over FAST's time in the same frame. Median over frames",
-         label == "filter" ? std::vector{Table::suite, Table::report} : std::vector<Table>{}});
+    all.push_back({key + "_over_fast", [stage](auto& s) { return over_fast(s, stage); },
+                   neutral("", 1), label == "filter" ? "time" : "",
+                   "the stage's time over FAST's time in the same frame. Median over frames",
+                   label == "filter" ? kInSuites : std::span<const Table>()});
   }
   all.push_back(
       {"sim.frames_per_second", frames_per_second, neutral("frames/s", 1), "",
@@ -438,7 +411,7 @@ std::vector<Metric> warning_metrics() {
   std::vector<Metric> all;
   for (const auto& [word, meaning] : rows) {
     const auto count = [word = word](const Scores& s) {
-      return Figure(std::ranges::find(s.warnings, word, &Warned::word)->count);
+      return Figure(std::ranges::find(s.warnings, word, &recording::Warned::word)->count);
     };
     all.push_back({"warnings." + word, count, kCount, "", meaning});
   }
@@ -450,7 +423,8 @@ std::vector<Metric> warning_metrics() {
 const std::vector<Metric>& metrics() {
   static const std::vector<Metric> all = [] {
     std::vector<Metric> table;
-    const auto add = [&](std::vector<Metric> rows, Truth needs = Truth::unknown) {
+    const auto add = [&](std::vector<Metric> rows,
+                         recording::Truth needs = recording::Truth::unknown) {
       for (Metric& row : rows) {
         row.needs = needs;
         table.push_back(std::move(row));
@@ -458,20 +432,17 @@ const std::vector<Metric>& metrics() {
     };
     add({{"frames", [](auto& s) { return static_cast<double>(s.frames); }, kCount, "frames",
           "frames of the recording"}});
-    add(rebel_metrics(), Truth::nothing_moves);
-    add(square_metrics(), Truth::all);
+    add(rebel_metrics(), recording::Truth::nothing_moves);
+    add(square_metrics(), recording::Truth::all);
     add(label_metrics());
     add(found_metrics());
     add(other_metrics());
     add(time_metrics());
     add(warning_metrics());
-    add({{std::string(kSizeShare),
-          nullptr,
-          kLostShare,
-          "size",
+    add({{std::string(kSizeShare), nullptr, kLostShare, "size",
           "dimension.mean / dimension.five_frame_mean. In suites and comparisons, not in "
           "metrics.json",
-          {Table::suite, Table::report}}});
+          kInSuites}});
     return table;
   }();
   return all;
@@ -502,16 +473,8 @@ std::string Metric::heading() const {
   return scale.unit.empty() ? label : fmt::format("{} ({})", label, scale.unit);
 }
 
-std::string Metric::tooltip() const {
-  return fmt::format("{}: {}", key, meaning);
-}
-
 std::string_view Metric::first_sentence() const {
   return std::string_view(meaning).substr(0, meaning.find(". "));
-}
-
-bool Metric::is_time() const {
-  return key.starts_with("time.") || key.starts_with("sim.");
 }
 
 double least_change(const Scale& scale, double before) {
@@ -523,4 +486,4 @@ int sign_of_change(Direction better, double before, double after) {
   return (after > before) == (better == Direction::higher) ? 1 : -1;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

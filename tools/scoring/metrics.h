@@ -5,13 +5,14 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 struct Scores;
 
@@ -42,16 +43,18 @@ struct Metric {
   std::string key;  ///< as in metrics.json
   std::function<std::optional<double>(const Scores&)> compute;
   Scale scale;
-  std::string label;              ///< column heading or prefix of the value; empty: in no table
-  std::string meaning;            ///< its first sentence is the table's legend
-  std::vector<Table> shown = {};  ///< the tables with this metric
-  Truth needs = Truth::unknown;   ///< undefined if less of the truth is known
+  std::string label;                  ///< column heading or prefix of the value; empty: in no table
+  std::string meaning;                ///< its first sentence is the table's legend
+  std::span<const Table> shown = {};  ///< the tables with this metric
+  recording::Truth needs = recording::Truth::unknown;  ///< undefined if less of the truth is known
 
   std::string number(std::optional<double> value) const;  ///< without the unit; "-" if undefined
   std::string heading() const;                            ///< such as "latency (frames)"
-  std::string tooltip() const;                            ///< the key and the whole meaning
   std::string_view first_sentence() const;                ///< of the meaning
-  bool is_time() const;                                   ///< differs from run to run
+  /// The key and the whole meaning.
+  std::string tooltip() const { return key + ": " + meaning; }
+  /// Whether it differs from run to run.
+  bool is_time() const { return key.starts_with("time.") || key.starts_with("sim."); }
 };
 
 /// `dimension.mean` / `dimension.five_frame_mean`. Only suites have it (`suite::figure_of`), not
@@ -74,4 +77,4 @@ double least_change(const Scale& scale, double before);
 /// The sign of a change from `before` to `after`: better (> 0), worse (< 0) or neither (0).
 int sign_of_change(Direction better, double before, double after);
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 constexpr double kRim_px = 1e-6;
@@ -25,7 +25,18 @@ void add(Region& region, const Stretch& stretch) {
   region.pixels += stretch.bottom - stretch.top;
 }
 
-Region region_of_polygon(std::span<const Vec2> polygon) {
+}  // namespace
+
+Region region_of(const sim::Mask& mask) {
+  Region region;
+  sim::visit_stretches(mask, [&](int column, int top, int bottom) {
+    add(region, {column, top, bottom});
+  });
+  return region;
+}
+
+Region region_of(const Outline& outline) {
+  const std::span<const Vec2> polygon = outline.vertices();
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const Vec2& point : polygon) {
     left = std::min(left, point.x());
@@ -55,21 +66,7 @@ Region region_of_polygon(std::span<const Vec2> polygon) {
   return region;
 }
 
-}  // namespace
-
-Region region_of(const sim::Mask& mask) {
-  Region region;
-  sim::visit_stretches(mask, [&](int column, int top, int bottom) {
-    add(region, {column, top, bottom});
-  });
-  return region;
-}
-
-Region region_of(const Outline& outline) {
-  return region_of_polygon(outline.vertices());
-}
-
-Region region_of(const Box& box) {
+Region region_of(const recording::Box& box) {
   Region region;
   for (int column = first_pixel(box.min().x()); column <= last_pixel(box.max().x()); ++column) {
     add(region, {column, first_pixel(box.min().y()), last_pixel(box.max().y()) + 1});
@@ -77,9 +74,10 @@ Region region_of(const Box& box) {
   return region;
 }
 
-Region region_of(const Square& square, const SquareMasks& masks) {
+Region region_of(const Square& square, const recording::SquareMasks& masks) {
   if (const auto mask = masks.find(square.id); mask != masks.end()) return region_of(mask->second);
-  return square.outline.count > 0 ? region_of(square.outline) : region_of(box_of(square));
+  return square.outline.count > 0 ? region_of(square.outline)
+                                  : region_of(recording::box_of(square));
 }
 
 double intersection_over_union(const Region& a, const Region& b) {
@@ -95,4 +93,4 @@ double intersection_over_union(const Region& a, const Region& b) {
   return all > 0 ? static_cast<double>(common) / static_cast<double>(all) : 0;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -9,7 +9,7 @@
 #include "tools/recording/box.h"
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// Pixels of one column, [top, bottom).
 struct Stretch {
@@ -28,12 +28,12 @@ Region region_of(const sim::Mask& mask);
 /// covers each column from its highest to its lowest point. Pixels beyond 2^15 are left out.
 ///@{
 Region region_of(const Outline& outline);
-Region region_of(const Box& box);
+Region region_of(const recording::Box& box);
 ///@}
 
 /// The region of a square: its mask, otherwise its outline, otherwise its box.
-Region region_of(const Square& square, const SquareMasks& masks);
+Region region_of(const Square& square, const recording::SquareMasks& masks);
 
 double intersection_over_union(const Region& a, const Region& b);
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "tools/recording/box.h"
-#include "tools/scoring/score_rebels.h"
-#include "tools/scoring/score_squares.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 constexpr double kMatch = 0.5;
@@ -19,14 +16,14 @@ constexpr double kMatch = 0.5;
 constexpr double kReach_px = 3;
 
 struct Labelled {
-  Box box, reach;
+  recording::Box box, reach;
   bool ignored;
 };
 
-std::vector<Labelled> labelled(const FrameRecord& frame) {
+std::vector<Labelled> labelled(const recording::FrameRecord& frame) {
   std::vector<Labelled> all;
-  for (const LabelledBox& label : *frame.labels) {
-    const Box box = box_of(label);
+  for (const recording::LabelledBox& label : *frame.labels) {
+    const recording::Box box = recording::box_of(label);
     const Vec2 reach = Vec2::Constant(kReach_px);
     all.push_back({box, {box.min() - reach, box.max() + reach}, label.ignored});
   }
@@ -38,7 +35,7 @@ bool in_any(const std::vector<Labelled>& labels, const Vec2& px) {
                              [&](const Labelled& label) { return label.reach.contains(px); });
 }
 
-std::vector<Vec2> rebel_corners(const FrameRecord& frame) {
+std::vector<Vec2> rebel_corners(const recording::FrameRecord& frame) {
   std::vector<Vec2> corners;
   for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
     if (frame.verdicts[i] == Verdict::rebel) corners.push_back(frame.corners_px[i].cast<double>());
@@ -46,7 +43,8 @@ std::vector<Vec2> rebel_corners(const FrameRecord& frame) {
   return corners;
 }
 
-bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<Labelled>& labels) {
+bool is_off(const Circle& circle, const recording::FrameRecord& frame,
+            const std::vector<Labelled>& labels) {
   if (in_any(labels, circle.location)) return false;
   return std::ranges::none_of(frame.corners_px, [&](const Eigen::Vector2f& corner) {
     const Vec2 px = corner.cast<double>();
@@ -55,13 +53,14 @@ bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<La
 }
 
 /// The number of boxes matched one to one by squares. List positions break ties.
-int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
+int count_boxed(const recording::FrameRecord& frame, const std::vector<Labelled>& labels) {
   std::vector<BoxPair> pairs;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i].ignored) continue;
     for (std::size_t j = 0; j < frame.layers.squares.size(); ++j) {
       const Square& square = frame.layers.squares[j];
-      const double iou = intersection_over_union(labels[i].box, box_of(square));
+      const double iou =
+          recording::intersection_over_union(labels[i].box, recording::box_of(square));
       if (may_move(square) && iou >= kMatch) pairs.push_back({iou, static_cast<int>(i), j});
     }
   }
@@ -74,8 +73,8 @@ bool may_move(const Square& square) {
   return square.rebel_circles > 0 || square.circles == 0;
 }
 
-void LabelScore::add(const FrameRecord& frame) {
-  if (!frame.labels || frame.index < kSightings) return;
+void LabelScore::add(const recording::FrameRecord& frame) {
+  if (!frame.labels || frame.index < recording::kSightings) return;
   ++frames;
   const std::vector<Labelled> labels = labelled(frame);
   const std::vector<Vec2> rebels = rebel_corners(frame);
@@ -95,4 +94,4 @@ void LabelScore::add(const FrameRecord& frame) {
       }));
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

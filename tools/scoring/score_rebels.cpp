@@ -5,7 +5,7 @@
 
 #include "tools/recording/box.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 CornerOutcome outcome(bool said_rebel, sim::Label label, bool counted_by_recall) {
@@ -17,30 +17,22 @@ CornerOutcome outcome(bool said_rebel, sim::Label label, bool counted_by_recall)
 }
 
 RebelCounts counts(CornerOutcome outcome) {
-  RebelCounts counts;
   const bool found = outcome == CornerOutcome::found;
-  counts.true_rebels = found || outcome == CornerOutcome::found_early;
-  counts.false_rebels = outcome == CornerOutcome::false_rebel;
-  counts.found_rebels = found;
-  counts.missed_rebels = outcome == CornerOutcome::missed;
-  return counts;
+  return {.true_rebels = found || outcome == CornerOutcome::found_early,
+          .false_rebels = outcome == CornerOutcome::false_rebel,
+          .found_rebels = found,
+          .missed_rebels = outcome == CornerOutcome::missed};
 }
 
 /// The outcome as if the verdict were right.
 CornerOutcome corrected(CornerOutcome outcome) {
-  switch (outcome) {
-    case CornerOutcome::false_rebel:
-      return CornerOutcome::fixed;
-    case CornerOutcome::missed:
-      return CornerOutcome::found;
-    case CornerOutcome::missed_early:
-      return CornerOutcome::found_early;
-    default:
-      return outcome;
-  }
+  return outcome == CornerOutcome::false_rebel    ? CornerOutcome::fixed
+         : outcome == CornerOutcome::missed       ? CornerOutcome::found
+         : outcome == CornerOutcome::missed_early ? CornerOutcome::found_early
+                                                  : outcome;
 }
 
-Difficulty difficulty(const FrameRecord& frame, std::size_t corner) {
+Difficulty difficulty(const recording::FrameRecord& frame, std::size_t corner) {
   const sim::CornerTruth& truth = frame.corner_truth[corner];
   if (truth.outline) return Difficulty::outline;
   if (truth.label == sim::Label::rebel && truth.radial) return Difficulty::radial;
@@ -50,7 +42,7 @@ Difficulty difficulty(const FrameRecord& frame, std::size_t corner) {
 }
 
 /// The number of corners with the verdict rebel, by object.
-std::map<int, int> rebels_by_object(const FrameRecord& frame) {
+std::map<int, int> rebels_by_object(const recording::FrameRecord& frame) {
   std::map<int, int> rebels;
   for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
     if (frame.verdicts[i] == Verdict::rebel) ++rebels[frame.corner_truth[i].object];
@@ -58,15 +50,8 @@ std::map<int, int> rebels_by_object(const FrameRecord& frame) {
   return rebels;
 }
 
-std::set<int> moving_objects(const FrameRecord& frame) {
-  std::set<int> moving;
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (truth.moving) moving.insert(truth.object);
-  }
-  return moving;
-}
-
-RebelCornerScore score_of(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes) {
+RebelCornerScore score_of(const recording::FrameRecord& frame,
+                          const std::vector<CornerOutcome>& outcomes) {
   RebelCornerScore score;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const sim::CornerTruth& truth = frame.corner_truth[i];
@@ -97,22 +82,22 @@ RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
   return *this;
 }
 
-std::vector<CornerOutcome> corner_outcomes(const FrameRecord& frame,
+std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
                                            const ObjectDetections& detections) {
   std::vector<CornerOutcome> outcomes(frame.corner_truth.size(), CornerOutcome::uncounted);
-  if (frame.index < kSightings) return outcomes;
+  if (frame.index < recording::kSightings) return outcomes;
   for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
     const sim::CornerTruth& truth = frame.corner_truth[i];
     const bool is_rebel = truth.label == sim::Label::rebel;
     if (!is_rebel && truth.label != sim::Label::fixed) continue;
-    const bool by_recall =
-        is_rebel && frame.index >= detections.at(truth.object).first_distinct + kSightings;
+    const bool by_recall = is_rebel && frame.index >= detections.at(truth.object).first_distinct +
+                                                          recording::kSightings;
     outcomes[i] = outcome(frame.verdicts[i] == Verdict::rebel, truth.label, by_recall);
   }
   return outcomes;
 }
 
-std::vector<CornerOutcome> RebelScorer::add(const FrameRecord& frame) {
+std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame) {
   std::set<int> distinct;
   for (const sim::CornerTruth& truth : frame.corner_truth) {
     if (truth.label == sim::Label::rebel) distinct.insert(truth.object);
@@ -131,7 +116,7 @@ std::vector<CornerOutcome> RebelScorer::add(const FrameRecord& frame) {
   std::vector<CornerOutcome> outcomes = corner_outcomes(frame, detections_);
   last_ = score_of(frame, outcomes);
   corners_ += last_;
-  if (frame.index < kSightings) return outcomes;
+  if (frame.index < recording::kSightings) return outcomes;
 
   ++circles_.frames;
   circles_.false_circles += static_cast<int>(false_circles(frame).size());
@@ -140,7 +125,7 @@ std::vector<CornerOutcome> RebelScorer::add(const FrameRecord& frame) {
     if (!truth.moving || found == rebels.end() || found->second < kCornersToFind) continue;
     ++circles_.seen;
     circles_.circled += std::ranges::any_of(frame.layers.rebel_circles, [&](const Circle& circle) {
-      return box_of(truth).contains(circle.location);
+      return recording::box_of(truth).contains(circle.location);
     });
   }
   return outcomes;
@@ -149,7 +134,7 @@ std::vector<CornerOutcome> RebelScorer::add(const FrameRecord& frame) {
 RebelObjectScore RebelScorer::objects() const {
   RebelObjectScore score = circles_;
   for (const auto& [object, detection] : detections_) {
-    if (detection.distinct_frames < kSightings) continue;
+    if (detection.distinct_frames < recording::kSightings) continue;
     ++score.objects;
     if (!detection.found_at) continue;
     ++score.found;
@@ -158,21 +143,21 @@ RebelObjectScore RebelScorer::objects() const {
   return score;
 }
 
-bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px) {
-  const bool centre_in_box =
-      std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& truth) {
-        return truth.moving && box_of(truth).contains(centre_px);
-      });
-  if (centre_in_box) return true;
-  const std::set<int> moving = moving_objects(frame);
-  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-    const double distance = (frame.corners_px[i].cast<double>() - centre_px).norm();
-    if (distance <= radius_px && moving.contains(frame.corner_truth[i].object)) return true;
-  }
-  return false;
+bool has_mover_under(const recording::FrameRecord& frame, const Vec2& centre_px, double radius_px) {
+  const auto has_corner_in_disc = [&](int object) {
+    for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+      if (frame.corner_truth[i].object != object) continue;
+      if ((frame.corners_px[i].cast<double>() - centre_px).norm() <= radius_px) return true;
+    }
+    return false;
+  };
+  return std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& truth) {
+    return truth.moving &&
+           (recording::box_of(truth).contains(centre_px) || has_corner_in_disc(truth.object));
+  });
 }
 
-std::vector<const Circle*> false_circles(const FrameRecord& frame) {
+std::vector<const Circle*> false_circles(const recording::FrameRecord& frame) {
   std::vector<const Circle*> alone;
   for (const Circle& circle : frame.layers.rebel_circles) {
     if (!has_mover_under(frame, circle.location, circle.radius)) alone.push_back(&circle);
@@ -180,4 +165,4 @@ std::vector<const Circle*> false_circles(const FrameRecord& frame) {
   return alone;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

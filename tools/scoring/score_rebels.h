@@ -11,7 +11,7 @@
 #include "tools/recording/recording.h"
 #include "tools/scoring/scoring.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// An object counts as found with at least this many rebel corners on it.
 inline constexpr int kCornersToFind = 3;
@@ -28,10 +28,10 @@ using ObjectDetections = std::map<int, ObjectDetection>;
 
 /// Whether a disc has a moving object under it: the disc's centre lies in the object's box, or a
 /// corner of the object lies in the disc.
-bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px);
+bool has_mover_under(const recording::FrameRecord& frame, const Vec2& centre_px, double radius_px);
 
 /// Rebel circles with no moving object under them.
-std::vector<const Circle*> false_circles(const FrameRecord& frame);
+std::vector<const Circle*> false_circles(const recording::FrameRecord& frame);
 
 /// The difficulty of a verdict. Each corner has the first kind that applies.
 enum class Difficulty : std::uint8_t {
@@ -64,14 +64,14 @@ struct RebelObjectScore {
 };
 
 /// The outcome of each corner of a frame. \param detections up to this frame, or later.
-std::vector<CornerOutcome> corner_outcomes(const FrameRecord& frame,
+std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
                                            const ObjectDetections& detections);
 
 /// Scores a run frame by frame, in order.
 class RebelScorer {
  public:
   /// \return the outcome of each corner.
-  std::vector<CornerOutcome> add(const FrameRecord& frame);
+  std::vector<CornerOutcome> add(const recording::FrameRecord& frame);
 
   /// The counts of the last frame; all 0 during the warm-up.
   const RebelCornerScore& last() const { return last_; }
@@ -85,4 +85,4 @@ class RebelScorer {
   RebelObjectScore circles_;  ///< without the fields that `detections_` determine
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -7,9 +7,8 @@
 #include "tools/recording/box.h"
 #include "tools/scoring/region.h"
 #include "tools/scoring/scoring.h"
-#include "tools/scoring/statistics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
 /// \name Conditions for an eligible truth box, which a square should find.
@@ -19,13 +18,19 @@ constexpr int kMinCorners = 4;
 constexpr double kMinVisibleFraction = 0.5;
 ///@}
 
-bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
-  const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
-  const auto corners = std::ranges::count_if(
-      frame.corner_truth,
-      [&](const sim::CornerTruth& corner) { return corner.object == truth.object; });
-  return area >= kMinArea_px2 && corners >= kMinCorners &&
-         truth.visible_fraction >= kMinVisibleFraction;
+/// Numbers of a frame's eligible objects: large, visible and with corners enough.
+std::set<int> eligible_objects(const recording::FrameRecord& frame) {
+  std::set<int> objects;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
+    const auto corners =
+        std::ranges::count(frame.corner_truth, truth.object, &sim::CornerTruth::object);
+    if (area >= kMinArea_px2 && corners >= kMinCorners &&
+        truth.visible_fraction >= kMinVisibleFraction) {
+      objects.insert(truth.object);
+    }
+  }
+  return objects;
 }
 
 /// The overlaps of the squares and objects of one frame, before any threshold.
@@ -37,7 +42,7 @@ struct FrameSquares {
 
 /// \param iou_of returns the IoU of an object's truth and a square.
 template <typename Overlap>
-FrameSquares compare(const FrameRecord& frame, Overlap&& iou_of) {
+FrameSquares compare(const recording::FrameRecord& frame, Overlap&& iou_of) {
   FrameSquares result;
   result.eligible = eligible_objects(frame);
   std::vector<BoxPair> candidates;
@@ -58,16 +63,16 @@ FrameSquares compare(const FrameRecord& frame, Overlap&& iou_of) {
   return result;
 }
 
-FrameSquares compare_boxes(const FrameRecord& frame) {
+FrameSquares compare_boxes(const recording::FrameRecord& frame) {
   return compare(frame, [](const sim::ObjectTruth& truth, const Square& square) {
-    return intersection_over_union(box_of(truth), box_of(square));
+    return recording::intersection_over_union(recording::box_of(truth), recording::box_of(square));
   });
 }
 
 /// The pixels that the objects and squares of a frame cover.
 class FrameRegions {
  public:
-  explicit FrameRegions(const FrameRecord& frame) {
+  explicit FrameRegions(const recording::FrameRecord& frame) {
     for (const sim::ObjectTruth& truth : frame.object_truth) {
       objects_[truth.object] = region_of(sim::mask_of(truth));
     }
@@ -108,15 +113,7 @@ void add_to(SquareCounts& sum, const SquareOutcomes& outcomes) {
 
 }  // namespace
 
-std::set<int> eligible_objects(const FrameRecord& frame) {
-  std::set<int> objects;
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (is_eligible(truth, frame)) objects.insert(truth.object);
-  }
-  return objects;
-}
-
-SquareOutcomes square_outcomes(const FrameRecord& frame) {
+SquareOutcomes square_outcomes(const recording::FrameRecord& frame) {
   return outcomes_of(compare_boxes(frame), kRightIou);
 }
 
@@ -136,19 +133,12 @@ std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
   return matched;
 }
 
-std::optional<double> SquareCounts::recall() const {
-  return ratio(matched, boxes);
-}
-std::optional<double> SquareCounts::precision() const {
-  return ratio(matched, squares);
-}
-
-void SquareScorer::add(const FrameRecord& frame) {
+void SquareScorer::add(const recording::FrameRecord& frame) {
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (truth.moving) movers_.insert(truth.object);
     if (truth.mask.empty()) are_masks_known_ = false;
   }
-  if (frame.index < kSightings) return;
+  if (frame.index < recording::kSightings) return;
   const FrameSquares squares = compare_boxes(frame);
   add_to(sums_.at_30, outcomes_of(squares, 0.3));
   add_to(sums_.at_50, outcomes_of(squares, kRightIou));
@@ -187,4 +177,4 @@ SquareScore SquareScorer::score() const {
   return score;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "tools/recording/recording.h"
+#include "tools/scoring/statistics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// Counts at one IoU threshold (intersection over union).
 struct SquareCounts {
@@ -17,8 +18,8 @@ struct SquareCounts {
   int matched = 0;  ///< boxes matched by a square
   int squares = 0;  ///< right and wrong squares; those on ineligible objects are neither
 
-  std::optional<double> recall() const;
-  std::optional<double> precision() const;
+  std::optional<double> recall() const { return ratio(matched, boxes); }
+  std::optional<double> precision() const { return ratio(matched, squares); }
 };
 
 /// A box and a square that overlap.
@@ -32,20 +33,16 @@ struct BoxPair {
 /// not depend on the order of the pairs.
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
 
-/// \name The criterion for a right square, and the objects that squares should find.
-///@{
+/// The least IoU of a right square.
 inline constexpr double kRightIou = 0.5;
-/// Numbers of a frame's eligible objects: large, visible and with corners enough.
-std::set<int> eligible_objects(const FrameRecord& frame);
-///@}
 
 /// The right and the wrong squares of a frame.
 struct SquareOutcomes {
-  std::set<int> eligible;
+  std::set<int> eligible;      ///< objects that squares should find
   std::vector<BoxPair> right;  ///< pairs with an IoU of at least `kRightIou`
   std::vector<Id> wrong;       ///< wrong squares; squares on ineligible objects are in neither
 };
-SquareOutcomes square_outcomes(const FrameRecord& frame);
+SquareOutcomes square_outcomes(const recording::FrameRecord& frame);
 
 struct SquareScore {
   SquareCounts at_30, at_50, at_70;
@@ -68,7 +65,7 @@ struct SquareScore {
 /// move at any time in the run are known at its end only.
 class SquareScorer {
  public:
-  void add(const FrameRecord& frame);
+  void add(const recording::FrameRecord& frame);
   SquareScore score() const;
 
  private:
@@ -86,4 +83,4 @@ class SquareScorer {
   bool are_masks_known_ = true;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

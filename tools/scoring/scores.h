@@ -11,7 +11,7 @@
 #include "tools/scoring/score_rebels.h"
 #include "tools/scoring/score_squares.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// Counts over the labelled frames after the warm-up.
 struct LabelScore {
@@ -22,14 +22,14 @@ struct LabelScore {
   int rebels_off = 0;   ///< rebel corners in no box
   int circles_off = 0;  ///< rebel circles on no box
 
-  void add(const FrameRecord& frame);
+  void add(const recording::FrameRecord& frame);
 };
 
 /// Whether the square moves. A square without circles, of a user's detector, counts as moving.
 bool may_move(const Square& square);
 
 struct Scores {
-  DetectorInfo detector;
+  recording::DetectorInfo detector;
   int frames = 0;
   RebelCornerScore corners;
   RebelObjectScore objects;
@@ -44,9 +44,9 @@ struct Scores {
   std::vector<double> corner_counts;
   std::vector<double> dimensions;                                 ///< empty without layers
   std::vector<double> rotation_errors_mrad, velocity_errors_mps;  ///< of the estimated motion
-  std::vector<FrameTimes> times;                                  ///< of frames that have them
+  std::vector<recording::FrameTimes> times;                       ///< of frames that have them
   ///@}
-  std::vector<Warned> warnings;
+  std::vector<recording::Warned> warnings;
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

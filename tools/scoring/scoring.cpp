@@ -8,12 +8,11 @@
 
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/scores.h"
-#include "tools/scoring/statistics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 namespace {
 
-void require_pairs(const FrameRecord& frame) {
+void require_pairs(const recording::FrameRecord& frame) {
   const std::size_t corners = frame.corners_px.size();
   if (frame.verdicts.size() == corners && frame.corner_truth.size() == corners) return;
   throw std::invalid_argument("frame " + std::to_string(frame.index) + " has " +
@@ -23,14 +22,6 @@ void require_pairs(const FrameRecord& frame) {
 }
 
 }  // namespace
-
-std::optional<double> RebelCounts::precision() const {
-  return ratio(true_rebels, true_rebels + false_rebels);
-}
-
-std::optional<double> RebelCounts::recall() const {
-  return ratio(found_rebels, found_rebels + missed_rebels);
-}
 
 std::optional<double> RebelCounts::f1() const {
   const std::optional<double> r = recall();
@@ -48,25 +39,25 @@ RebelCounts& RebelCounts::operator+=(const RebelCounts& other) {
 }
 
 struct Scorer::State {
-  Truth truth;
-  WarningWatch warnings;
+  recording::Truth truth;
+  recording::WarningWatch warnings;
   Scores scores = {};  ///< without the members that the others determine
   RebelScorer rebels = {};
   SquareScorer squares = {};
   std::vector<Id> normal_edges = {};  ///< of the previous frame
 
-  void add_edges(const FrameRecord& frame);
+  void add_edges(const recording::FrameRecord& frame);
 };
 
-Scorer::Scorer(const RunInfo& run)
-    : state_(new State{.truth = run.truth, .warnings = WarningWatch(run.truth)}) {
+Scorer::Scorer(const recording::RunInfo& run)
+    : state_(new State{.truth = run.truth, .warnings = recording::WarningWatch(run.truth)}) {
   state_->scores.detector = run.detector;
 }
 Scorer::~Scorer() = default;
 Scorer::Scorer(Scorer&&) noexcept = default;
 
 /// Counts the normal edges of the previous frame, and how many of them have a corner in this one.
-void Scorer::State::add_edges(const FrameRecord& frame) {
+void Scorer::State::add_edges(const recording::FrameRecord& frame) {
   std::set<Id> supported;
   for (const Edge& edge : frame.layers.normal_edges) {
     if (edge.corner >= 0) supported.insert(edge.id);
@@ -78,7 +69,7 @@ void Scorer::State::add_edges(const FrameRecord& frame) {
   for (const Edge& edge : frame.layers.normal_edges) normal_edges.push_back(edge.id);
 }
 
-FrameScore Scorer::add(const FrameRecord& frame) {
+FrameScore Scorer::add(const recording::FrameRecord& frame) {
   require_pairs(frame);
   FrameScore score{state_->rebels.add(frame), state_->rebels.last().overall};
   state_->squares.add(frame);
@@ -110,7 +101,7 @@ Metrics Scorer::metrics(const std::optional<sim::Warnings>& world) const {
   scores.squares = state_->squares.score();
   scores.warnings = warned(world);
   Metrics figures;
-  for (const Metric& metric : bench::metrics()) {
+  for (const Metric& metric : scoring::metrics()) {
     if (!metric.compute) continue;
     const bool is_known = state_->truth <= metric.needs;
     figures.emplace_back(metric.key, is_known ? metric.compute(scores) : std::nullopt);
@@ -118,7 +109,7 @@ Metrics Scorer::metrics(const std::optional<sim::Warnings>& world) const {
   return figures;
 }
 
-std::vector<Warned> Scorer::warned(const std::optional<sim::Warnings>& world) const {
+std::vector<recording::Warned> Scorer::warned(const std::optional<sim::Warnings>& world) const {
   return state_->warnings.warned(world);
 }
 
@@ -130,17 +121,16 @@ const ObjectDetections& Scorer::detections() const {
   return state_->rebels.detections();
 }
 
-Metrics score(const Recording& recording) {
+Metrics score(const recording::Recording& recording) {
   Scorer scorer(recording);
-  for (const FrameRecord& frame : recording.frames) scorer.add(frame);
+  for (const recording::FrameRecord& frame : recording.frames) scorer.add(frame);
   return scorer.metrics(recording.warnings);
 }
 
 std::optional<double> value(const Metrics& metrics, std::string_view name) {
-  const auto found =
-      std::ranges::find_if(metrics, [&](const auto& metric) { return metric.first == name; });
+  const auto found = std::ranges::find(metrics, name, &Metrics::value_type::first);
   if (found == metrics.end()) throw std::out_of_range("no metric is called " + std::string(name));
   return found->second;
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

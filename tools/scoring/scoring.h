@@ -13,8 +13,9 @@
 
 #include "tools/recording/recording.h"
 #include "tools/recording/warnings.h"
+#include "tools/scoring/statistics.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 struct ObjectDetection;
 
@@ -33,8 +34,8 @@ struct RebelCounts {
   int found_rebels = 0;
   int missed_rebels = 0;  ///< FN: label rebel, any other verdict, counted by recall
 
-  std::optional<double> precision() const;
-  std::optional<double> recall() const;
+  std::optional<double> precision() const { return ratio(true_rebels, true_rebels + false_rebels); }
+  std::optional<double> recall() const { return ratio(found_rebels, found_rebels + missed_rebels); }
   /// The harmonic mean; undefined if recall is undefined, 0 if recall is 0.
   std::optional<double> f1() const;
 
@@ -63,18 +64,18 @@ struct FrameScore {
 class Scorer {
  public:
   /// Uses the detector and the truth of the run.
-  explicit Scorer(const RunInfo& run);
+  explicit Scorer(const recording::RunInfo& run);
   ~Scorer();
   Scorer(Scorer&&) noexcept;
 
   /// \throws std::invalid_argument if the counts of corners, verdicts and truth differ; then the
   ///   frame is not added.
-  FrameScore add(const FrameRecord& frame);
+  FrameScore add(const recording::FrameRecord& frame);
 
   /// \name Of the frames so far. \param world the simulation's warnings; absent without one.
   ///@{
   Metrics metrics(const std::optional<sim::Warnings>& world) const;
-  std::vector<Warned> warned(const std::optional<sim::Warnings>& world) const;
+  std::vector<recording::Warned> warned(const std::optional<sim::Warnings>& world) const;
   int frames() const;
   const std::map<int, ObjectDetection>& detections() const;
   ///@}
@@ -85,6 +86,6 @@ class Scorer {
 };
 
 /// The figures of a whole recording. \throws as `Scorer::add`.
-Metrics score(const Recording& recording);
+Metrics score(const recording::Recording& recording);
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

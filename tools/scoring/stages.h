@@ -6,11 +6,11 @@
 
 #include "tools/recording/recording.h"
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 struct Stage {
   const char* name;  ///< such as "line": column line_ms, metrics time.line_*
-  double FrameTimes::*time_ms;
+  double recording::FrameTimes::*time_ms;
   const char* label = "";     ///< label in tables
   bool is_layer = false;      ///< undefined for a detector without layers
   bool is_of_filter = false;  ///< its time is also compared with FAST's
@@ -19,15 +19,15 @@ struct Stage {
 };
 
 inline constexpr Stage kStages[] = {
-    {"detect", &FrameTimes::detect_ms, "FAST"},
-    {"describe", &FrameTimes::describe_ms, "signatures", false, false, true},
-    {"line", &FrameTimes::line_ms, "line", true, true},
-    {"circle", &FrameTimes::circle_ms, "circle", true, true},
-    {"square", &FrameTimes::square_ms, "square", true, true},
-    {"filter", &FrameTimes::filter_ms, "filter", false, true},
-    {"process", &FrameTimes::process_ms, "process", false, false, true},
-    {"simulate", &FrameTimes::simulate_ms},
-    {"truth", &FrameTimes::truth_ms},
+    {"detect", &recording::FrameTimes::detect_ms, "FAST"},
+    {"describe", &recording::FrameTimes::describe_ms, "signatures", false, false, true},
+    {"line", &recording::FrameTimes::line_ms, "line", true, true},
+    {"circle", &recording::FrameTimes::circle_ms, "circle", true, true},
+    {"square", &recording::FrameTimes::square_ms, "square", true, true},
+    {"filter", &recording::FrameTimes::filter_ms, "filter", false, true},
+    {"process", &recording::FrameTimes::process_ms, "process", false, false, true},
+    {"simulate", &recording::FrameTimes::simulate_ms},
+    {"truth", &recording::FrameTimes::truth_ms},
 };
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace lcs::bench {
+namespace lcs::scoring {
 
 /// part / whole; undefined if whole is 0.
 inline std::optional<double> ratio(double part, double whole) {
@@ -35,4 +35,4 @@ inline std::optional<double> median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }
 
-}  // namespace lcs::bench
+}  // namespace lcs::scoring

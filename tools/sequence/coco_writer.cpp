@@ -37,7 +37,7 @@ class CocoWriter : public Writer {
     }
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     nlohmann::json categories = nlohmann::json::array();
     for (const std::string& name : categories_of(info_.scenario)) {
       categories.push_back({{"id", categories.size() + 1}, {"name", name}});
@@ -45,7 +45,7 @@ class CocoWriter : public Writer {
     const nlohmann::json info = {{"description", info_.scenario.name}};
     return {{"coco/annotations.json",
              {{.text = fmt::format(R"({{"info":{},"licenses":[],"categories":{},"images":[)",
-                                   bench::json_text(info), bench::json_text(categories))},
+                                   files::json_text(info), files::json_text(categories))},
               {.stream = "coco_images", .separator = ",\n"},
               {.text = R"(],"annotations":[)"},
               {.stream = "coco_annotations", .separator = ",\n"},
@@ -55,8 +55,6 @@ class CocoWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info) {
-  return std::make_unique<CocoWriter>(info);
-}
+const MakeWriter make_coco_writer = make_writer<CocoWriter>;
 
 }  // namespace lcs::sequence

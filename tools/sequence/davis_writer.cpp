@@ -55,8 +55,6 @@ class DavisWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_davis_writer(const SequenceInfo& info) {
-  return std::make_unique<DavisWriter>(info);
-}
+const MakeWriter make_davis_writer = make_writer<DavisWriter>;
 
 }  // namespace lcs::sequence

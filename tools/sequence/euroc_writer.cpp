@@ -64,24 +64,23 @@ class EurocWriter : public Writer {
     }
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     const auto csv = [](const std::string& path, const char* header, const char* stream) {
-      return Document{path, {{.text = header}, {.stream = stream}}};
+      return SequenceDocument{path, {{.text = header}, {.stream = stream}}};
     };
     const std::string camera = "mav0/" + camera_name(info_.place);
-    std::vector<Document> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
-                              {camera + "/sensor.yaml", {{.text = camera_yaml()}}}};
+    std::vector<SequenceDocument> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
+                                      {camera + "/sensor.yaml", {{.text = camera_yaml()}}}};
     if (!info_.is_first()) return all;
-    const std::vector<Document> of_others{
-        csv("mav0/imu0/data.csv", kImuHeader, "imu"),
-        csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
-        {"mav0/imu0/sensor.yaml", {{.text = imu_yaml()}}},
-        {"mav0/state_groundtruth_estimate0/sensor.yaml",
-         {{.text = sensor_yaml("visual-inertial",
-                               "pose, velocity and biases of the IMU, exact, at its readings",
-                               sim::Pose{})}}},
-    };
-    all.insert(all.end(), of_others.begin(), of_others.end());
+    all.insert(
+        all.end(),
+        {csv("mav0/imu0/data.csv", kImuHeader, "imu"),
+         csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
+         {"mav0/imu0/sensor.yaml", {{.text = imu_yaml()}}},
+         {"mav0/state_groundtruth_estimate0/sensor.yaml",
+          {{.text = sensor_yaml("visual-inertial",
+                                "pose, velocity and biases of the IMU, exact, at its readings",
+                                sim::Pose{})}}}});
     if (info_.scenario.odometry.enabled) {
       all.push_back(csv("mav0/odometry0/data.csv", kOdometryHeader, "odometry"));
       all.push_back({"mav0/odometry0/sensor.yaml", {{.text = odometry_yaml()}}});
@@ -133,6 +132,34 @@ class EurocWriter : public Writer {
   }
 };
 
+/// Writes the pictures and their list, which every sequence has, and their exposures if these
+/// change.
+class PictureWriter : public Writer {
+ public:
+  using Writer::Writer;
+
+  void write(const FrameView& frame, FrameOutput& output) const override {
+    const std::string path = picture_path(frame.stamp_ns, info_.place);
+    output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
+    output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
+    const sim::Exposure& exposure = frame.now.exposure;
+    output.rows["exposures"] =
+        fmt::format("{},{},{}\n", frame.stamp_ns, exposure.time_s, exposure.gain);
+  }
+
+  std::vector<SequenceDocument> documents() const override {
+    const std::string folder = "mav0/" + camera_name(info_.place);
+    std::vector<SequenceDocument> all{
+        {folder + "/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+    if (info_.scenario.image.auto_exposure) {
+      all.push_back(
+          {folder + "/exposure.csv",
+           {{.text = "#timestamp [ns],exposure [s],gain []\n"}, {.stream = "exposures"}}});
+    }
+    return all;
+  }
+};
+
 }  // namespace
 
 std::string camera_name(std::size_t place) {
@@ -143,28 +170,7 @@ std::string picture_path(std::int64_t stamp_ns, std::size_t place) {
   return fmt::format("mav0/{}/data/{}.png", camera_name(place), stamp_ns);
 }
 
-void PictureWriter::write(const FrameView& frame, FrameOutput& output) const {
-  const std::string path = picture_path(frame.stamp_ns, info_.place);
-  output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
-  output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
-  const sim::Exposure& exposure = frame.now.exposure;
-  output.rows["exposures"] =
-      fmt::format("{},{},{}\n", frame.stamp_ns, exposure.time_s, exposure.gain);
-}
-
-std::vector<Document> PictureWriter::documents() const {
-  const std::string folder = "mav0/" + camera_name(info_.place);
-  std::vector<Document> all{
-      {folder + "/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
-  if (info_.scenario.image.auto_exposure) {
-    all.push_back({folder + "/exposure.csv",
-                   {{.text = "#timestamp [ns],exposure [s],gain []\n"}, {.stream = "exposures"}}});
-  }
-  return all;
-}
-
-std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info) {
-  return std::make_unique<EurocWriter>(info);
-}
+const MakeWriter make_picture_writer = make_writer<PictureWriter>;
+const MakeWriter make_euroc_writer = make_writer<EurocWriter>;
 
 }  // namespace lcs::sequence

@@ -2,7 +2,7 @@
 // makes by h5py.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -19,11 +19,6 @@ void require_events(const SequenceInfo& info, const char* format) {
   throw input::Error(
       {info.scenario.file.string(), 0},
       "the camera has no event pixels; add 'events: {{}}', or leave {} out of --formats", format);
-}
-
-/// By the clock of the camera.
-std::int64_t stamp_ns(const SequenceInfo& info, const sim::Event& event) {
-  return kEpoch_ns + event.t_ns - std::llround(1e9 * info.scenario.camera.time_offset_s);
 }
 
 class RpgWriter : public Writer {
@@ -44,8 +39,8 @@ class RpgWriter : public Writer {
     output.rows["rpg_truth"] = pose_line(frame.stamp_ns, frame.now.truth.now.T_WC);
     std::string& events = output.rows["rpg_events"];
     for (const sim::Event& event : frame.now.events) {
-      fmt::format_to(std::back_inserter(events), "{} {} {} {:d}\n", seconds(stamp_ns(info_, event)),
-                     event.x, event.y, event.is_on);
+      fmt::format_to(std::back_inserter(events), "{} {} {} {:d}\n",
+                     seconds(info_.stamp_ns(event.t_ns)), event.x, event.y, event.is_on);
     }
     if (!info_.is_first()) return;
     std::string& imu = output.rows["rpg_imu"];
@@ -56,16 +51,16 @@ class RpgWriter : public Writer {
     }
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     const sim::Lens& lens = info_.calibration.optics.lens();
     std::vector<double> calibration{lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px};
-    for (std::size_t i = 0; i < 5; ++i) {
-      calibration.push_back(i < lens.coefficients.size() ? lens.coefficients[i] : 0);
-    }
-    std::vector<Document> all{{"rpg/calib.txt", {{.text = numbers(calibration, " ") + "\n"}}},
-                              {"rpg/images.txt", {{.stream = "rpg_images"}}},
-                              {"rpg/groundtruth.txt", {{.stream = "rpg_truth"}}},
-                              {"rpg/events.txt", {{.stream = "rpg_events"}}}};
+    std::ranges::copy(lens.coefficients, std::back_inserter(calibration));
+    calibration.resize(9);
+    std::vector<SequenceDocument> all{
+        {"rpg/calib.txt", {{.text = numbers(calibration, " ") + "\n"}}},
+        {"rpg/images.txt", {{.stream = "rpg_images"}}},
+        {"rpg/groundtruth.txt", {{.stream = "rpg_truth"}}},
+        {"rpg/events.txt", {{.stream = "rpg_events"}}}};
     if (info_.is_first()) all.push_back({"rpg/imu.txt", {{.stream = "rpg_imu"}}});
     return all;
   }
@@ -88,28 +83,18 @@ class DsecWriter : public Writer {
   void write(const FrameView& frame, FrameOutput& output) const override {
     std::string& events = output.rows["dsec"];
     for (const sim::Event& event : frame.now.events) {
-      fmt::format_to(std::back_inserter(events), "{} {} {} {:d}\n", stamp_ns(info_, event), event.x,
-                     event.y, event.is_on);
+      fmt::format_to(std::back_inserter(events), "{} {} {} {:d}\n", info_.stamp_ns(event.t_ns),
+                     event.x, event.y, event.is_on);
     }
   }
-  std::vector<Document> documents() const override { return {{kDsecFile, {{.stream = "dsec"}}}}; }
+  std::vector<SequenceDocument> documents() const override {
+    return {{kDsecFile, {{.stream = "dsec"}}}};
+  }
 };
 
 }  // namespace
 
-std::string hdf5_library() {
-  return run_script("write_events.py", {"--version"});
-}
-
-void write_hdf5(const std::filesystem::path& rows, const std::filesystem::path& out) {
-  run_script("write_events.py", {rows.string(), out.string()});
-}
-
-std::unique_ptr<Writer> make_rpg_writer(const SequenceInfo& info) {
-  return std::make_unique<RpgWriter>(info);
-}
-std::unique_ptr<Writer> make_dsec_writer(const SequenceInfo& info) {
-  return std::make_unique<DsecWriter>(info);
-}
+const MakeWriter make_rpg_writer = make_writer<RpgWriter>;
+const MakeWriter make_dsec_writer = make_writer<DsecWriter>;
 
 }  // namespace lcs::sequence

@@ -2,9 +2,8 @@
 // of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <vector>
 
 #include "tools/sequence/flow_code.h"
 #include "tools/sequence/png.h"
@@ -35,12 +34,7 @@ class FlowWriter : public Writer {
 
 cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid) {
   cv::Mat3w code(motion_px.size());
-  for (int y = 0; y < code.rows; ++y) {
-    const cv::Vec2f* from = motion_px[y];
-    const unsigned char* is_valid = valid[y];
-    cv::Vec3w* to = code[y];
-    for (int x = 0; x < code.cols; ++x) to[x] = kitti_code(from[x], is_valid[x] != 0);
-  }
+  std::transform(motion_px.begin(), motion_px.end(), valid.begin(), code.begin(), kitti_code);
   return code;
 }
 
@@ -48,24 +42,16 @@ std::string middlebury_flow(const cv::Mat2f& motion_px) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
   constexpr float kTag = 202021.25F;
   const std::int32_t size[2] = {motion_px.cols, motion_px.rows};
-  const std::size_t row_bytes = static_cast<std::size_t>(motion_px.cols) * sizeof(cv::Vec2f);
+  cv::Mat2f known = motion_px.clone();
+  cv::patchNaNs(known, kMiddleburyUnknown);
   std::string bytes;
-  bytes.reserve(sizeof kTag + sizeof size + row_bytes * static_cast<std::size_t>(motion_px.rows));
+  bytes.reserve(sizeof kTag + sizeof size + known.total() * known.elemSize());
   bytes.append(reinterpret_cast<const char*>(&kTag), sizeof kTag);
   bytes.append(reinterpret_cast<const char*>(size), sizeof size);
-  std::vector<float> row(2 * static_cast<std::size_t>(motion_px.cols));
-  for (int y = 0; y < motion_px.rows; ++y) {
-    const auto* values = motion_px.ptr<float>(y);
-    std::replace_copy_if(
-        values, values + row.size(), row.begin(), [](float value) { return std::isnan(value); },
-        kMiddleburyUnknown);
-    bytes.append(reinterpret_cast<const char*>(row.data()), row_bytes);
-  }
+  bytes.append(reinterpret_cast<const char*>(known.data), known.total() * known.elemSize());
   return bytes;
 }
 
-std::unique_ptr<Writer> make_flow_writer(const SequenceInfo& info) {
-  return std::make_unique<FlowWriter>(info);
-}
+const MakeWriter make_flow_writer = make_writer<FlowWriter>;
 
 }  // namespace lcs::sequence

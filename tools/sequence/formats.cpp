@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 
 #include "scenarios/input/message.h"
@@ -160,8 +162,7 @@ double estimated_bytes(const scenario::Scenario& scenario,
   double pixels = 0;
   const std::size_t cameras = std::max<std::size_t>(1, scenario.cameras.size());
   for (std::size_t place = 0; place < cameras; ++place) {
-    const scenario::Camera camera =
-        scenario.cameras.empty() ? scenario.camera : scenario.cameras[place].camera;
+    const scenario::Camera camera = scenario::seen_by(scenario, place).camera;
     pixels += 1.0 * camera.width_px * camera.height_px;
   }
   const double readings = scenario.imu.rate_hz / scenario.camera.rate_hz;
@@ -171,11 +172,9 @@ double estimated_bytes(const scenario::Scenario& scenario,
 const Format& format(std::string_view name) {
   const auto found = std::ranges::find(formats(), name, &Format::name);
   if (found != formats().end()) return *found;
-  std::string names;
-  for (const Format& each : formats()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
-  }
-  throw std::invalid_argument(fmt::format("no format is called '{}'; there are {}", name, names));
+  const auto names = formats() | std::views::transform(&Format::name);
+  throw std::invalid_argument(
+      fmt::format("no format is called '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
 std::string run_script(const std::string& name, const std::vector<std::string>& arguments) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <iterator>
 #include <map>
@@ -17,10 +16,8 @@
 #include "tools/files/output_file.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
-#include "tools/sequence/readme.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
-#include "tools/sequence/text_file.h"
 #include "tools/sequence/true_flow.h"
 #include "tools/sequence/writers.h"
 
@@ -32,7 +29,7 @@ constexpr const char* kScenarioFile = "scenario.yaml";
 std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
                                                 const GenerateOptions& options) {
   std::vector<std::unique_ptr<Writer>> writers;
-  writers.push_back(std::make_unique<PictureWriter>(info));
+  writers.push_back(make_picture_writer(info));
   for (const std::string& name : options.formats) writers.push_back(format(name).make(info));
   return writers;
 }
@@ -80,9 +77,12 @@ class Rig {
   std::vector<const sim::Calibration*> calibrations_;
 };
 
-/// As `of_camera` takes it.
-std::string folder_of(const SequenceInfo& info) {
-  return info.is_first() ? "" : camera_name(info.place);
+/// The place of a camera's file, or the name of its stream, by the one of cam0: the same in folders
+/// whose own layout has a place for each camera, else in the camera's own folder.
+std::string placed(const SequenceInfo& info, const std::string& path) {
+  const bool is_shared = path.starts_with("mav0/") || path.starts_with("kitti/");
+  const bool stays = info.is_first() || is_shared || path.empty();
+  return stays ? path : camera_name(info.place) + "/" + path;
 }
 
 /// Checks and writes a frame of one camera.
@@ -108,15 +108,15 @@ class FrameMaker {
     const cv::Mat1w mask = object_mask(now.truth);
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
     checks["outline_contrast_ratio"].add(check_outlines(now, mask));
-    const std::int64_t stamp_ns =
-        kEpoch_ns + now.t_ns - std::llround(1e9 * info_.scenario.camera.time_offset_s);
     FrameOutput output;
     for (const auto& writer : writers_) {
-      writer->write({now, stamp_ns, mask, motion ? &*motion : nullptr}, output);
+      writer->write({now, info_.stamp_ns(now.t_ns), mask, motion ? &*motion : nullptr}, output);
     }
-    output = of_camera(folder_of(info_), std::move(output));
-    std::ranges::move(output.files, std::back_inserter(all.files));
-    all.rows.merge(output.rows);
+    for (FrameFile& file : output.files) {
+      all.files.push_back(
+          {placed(info_, file.path), std::move(file.bytes), placed(info_, file.same_as)});
+    }
+    for (auto& [stream, text] : output.rows) all.rows[placed(info_, stream)] = std::move(text);
   }
 
  private:
@@ -124,41 +124,31 @@ class FrameMaker {
   std::vector<std::unique_ptr<Writer>> writers_;
 };
 
-/// A document that collects the rows of one frame after the other.
-class GrowingDocument {
- public:
-  explicit GrowingDocument(Document document)
-      : document_(std::move(document)), rows_(document_.parts.size()) {}
-
-  void add(const Rows& rows) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto found = rows.find(document_.parts[i].stream);
-      if (found == rows.end() || found->second.empty()) continue;
-      if (!rows_[i].empty()) rows_[i] += document_.parts[i].separator;
-      rows_[i] += found->second;
-    }
+/// Adds the rows of the next frame.
+void add(const Rows& rows, SequenceDocument& document) {
+  for (DocumentPart& part : document.parts) {
+    const auto found = rows.find(part.stream);
+    if (found == rows.end() || found->second.empty()) continue;
+    if (!part.text.empty()) part.text += part.separator;
+    part.text += found->second;
   }
+}
 
-  const std::string& path() const { return document_.path; }
-  std::string text() const {
-    std::string text;
-    for (std::size_t i = 0; i < rows_.size(); ++i) text += document_.parts[i].text + rows_[i];
-    return text;
-  }
-  /// Whether the document has streams, but no rows.
-  bool is_empty() const {
-    bool takes_rows = false;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (!rows_[i].empty()) return false;
-      takes_rows |= !document_.parts[i].stream.empty();
-    }
-    return takes_rows;
-  }
+std::string text_of(const SequenceDocument& document) {
+  std::string text;
+  for (const DocumentPart& part : document.parts) text += part.text;
+  return text;
+}
 
- private:
-  Document document_;
-  std::vector<std::string> rows_;
-};
+/// Whether the document has streams, but no rows.
+bool is_empty(const SequenceDocument& document) {
+  const auto is_stream = [](const DocumentPart& part) { return !part.stream.empty(); };
+  const auto has_rows = [&](const DocumentPart& part) {
+    return is_stream(part) && !part.text.empty();
+  };
+  return std::ranges::any_of(document.parts, is_stream) &&
+         std::ranges::none_of(document.parts, has_rows);
+}
 
 /// The scenario's file, with the values that replaced its own.
 std::string scenario_text(const scenario::Scenario& scenario, const GenerateOptions& options) {
@@ -181,19 +171,18 @@ std::string scenario_text(const scenario::Scenario& scenario, const GenerateOpti
   return whole == as_read ? text : whole;
 }
 
-std::vector<GrowingDocument> documents_of(const Rig& rig, const GenerateOptions& options) {
-  std::vector<GrowingDocument> all;
-  const auto add_text = [&](const char* path, std::string text) {
-    all.emplace_back(Document{path, {{.text = std::move(text)}}});
-  };
+std::vector<SequenceDocument> documents_of(const Rig& rig, const GenerateOptions& options) {
   const std::vector<SequenceInfo> infos = rig.infos();
-  add_text(kSettingsFile, settings_text(infos[rig.filter_place()]));
-  add_text(kScenarioFile, scenario_text(infos.front().scenario, options));
-  add_text(kReadmeFile, readme_text(infos.front(), options.formats));
+  std::vector<SequenceDocument> all{
+      {kSettingsFile, {{.text = settings_text(infos[rig.filter_place()])}}},
+      {kScenarioFile, {{.text = scenario_text(infos.front().scenario, options)}}},
+      {kReadmeFile, {{.text = readme_text(infos.front(), options.formats)}}}};
   for (const SequenceInfo& info : infos) {
     for (const auto& writer : writers_of(info, options)) {
-      for (Document& document : writer->documents()) {
-        all.emplace_back(of_camera(folder_of(info), std::move(document)));
+      for (SequenceDocument& document : writer->documents()) {
+        document.path = placed(info, document.path);
+        for (DocumentPart& part : document.parts) part.stream = placed(info, part.stream);
+        all.push_back(std::move(document));
       }
     }
   }
@@ -210,17 +199,19 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
-bench::Provenance::Json facts_of(const scenario::Scenario& scenario,
+files::Provenance::Json facts_of(const scenario::Scenario& scenario,
                                  const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
-  bench::Provenance::Json facts = {
+  files::Provenance::Json facts = {
       {"scenario", scenario.name},        {"set", options.sets},        {"seed", scenario.seed},
       {"frames", scenario.frames},        {"formats", options.formats}, {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},
   };
   facts.update(options.program);
-  if (std::ranges::count(options.formats, "mcap") > 0) facts["rosbags"] = bag_library();
-  if (std::ranges::count(options.formats, "dsec") > 0) facts["h5py"] = hdf5_library();
+  for (const Scripted& one : kScripted) {
+    if (std::ranges::count(options.formats, one.format) == 0) continue;
+    facts[std::string(one.library)] = run_script(one.script, {"--version"});
+  }
   return facts;
 }
 
@@ -273,14 +264,14 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
                                          const GenerateOptions& options, SequenceFolder& folder) {
   const Rig rig(scenario);  // for mounting and objects
-  std::vector<GrowingDocument> documents = documents_of(rig, options);
+  std::vector<SequenceDocument> documents = documents_of(rig, options);
   Agreements checks;
   std::vector<FileRecord> files;
   for (int k = 0; k < scenario.frames; ++k) {
     const FrameEntry& entry = folder.read(k);
     std::ranges::copy(entry.files, std::back_inserter(files));
     for (const auto& [name, agreement] : entry.checks) checks[name].add(agreement);
-    for (GrowingDocument& document : documents) document.add(entry.rows);
+    for (SequenceDocument& document : documents) add(entry.rows, document);
   }
   std::vector<std::string> notes;
   const scenario::Imu& imu = scenario.imu;
@@ -292,25 +283,27 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
         "no calibration of these formats states the errors of the IMU or the time offset of the "
         "camera; --formats with kalibr writes one that does");
   }
-  for (const GrowingDocument& document : documents) {
-    const std::string text = document.text();
-    if (document.path() == kBagFile || document.path().ends_with(kDsecFile)) {
-      std::ranges::move(folder.add_folder(std::filesystem::path(document.path()).parent_path(),
-                                          [&](const std::filesystem::path& out) {
-                                            const auto rows = out.parent_path() / "rows";
-                                            bench::write_file(rows, text);
-                                            document.path() == kBagFile
-                                                ? write_bag(rows, folder.staging(), out)
-                                                : write_hdf5(rows, out);
-                                          }),
-                        std::back_inserter(files));
+  for (const SequenceDocument& document : documents) {
+    const std::string text = text_of(document);
+    const auto scripted = std::ranges::find_if(
+        kScripted, [&](const Scripted& one) { return document.path.ends_with(one.file); });
+    if (scripted != kScripted.end()) {
+      const auto make = [&](const std::filesystem::path& out) {
+        const std::filesystem::path rows = out.parent_path() / "rows";
+        files::write_file(rows, text);
+        std::vector<std::string> arguments{rows, out};
+        if (scripted->takes_pictures) arguments.insert(arguments.begin() + 1, folder.staging());
+        run_script(scripted->script, arguments);
+      };
+      const std::filesystem::path within = std::filesystem::path(document.path).parent_path();
+      std::ranges::move(folder.add_folder(within, make), std::back_inserter(files));
       continue;
     }
-    folder.write(document.path(), text);
-    files.push_back({document.path(), text.size(), input::sha256(text)});
-    if (document.is_empty()) {
+    folder.write(document.path, text);
+    files.push_back({document.path, text.size(), input::sha256(text)});
+    if (is_empty(document)) {
       notes.push_back(
-          fmt::format("{} is empty: there is nothing to tell in any frame", document.path()));
+          fmt::format("{} is empty: there is nothing to tell in any frame", document.path));
     }
   }
   folder.finish(checks, std::move(files));

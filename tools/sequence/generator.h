@@ -25,12 +25,12 @@ FrameRange part_of(int count, int i, int n);
 struct GenerateOptions {
   std::vector<std::string> formats;  ///< by name
   std::vector<std::string> sets;     ///< overrides that the scenario was loaded with
-  bench::Provenance::Json program;   ///< facts: version and commit of this program
+  files::Provenance::Json program;   ///< facts: version and commit of this program
 };
 
 /// The settings and versions that determine the bytes of a sequence, beside the files that are
 /// read. Starts GL for its version.
-bench::Provenance::Json facts_of(const scenario::Scenario& scenario,
+files::Provenance::Json facts_of(const scenario::Scenario& scenario,
                                  const GenerateOptions& options);
 
 /// Renders and writes the incomplete frames of a range.

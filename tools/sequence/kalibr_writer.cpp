@@ -13,7 +13,7 @@ class KalibrWriter : public Writer {
  public:
   using Writer::Writer;
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     if (!info_.is_first()) return {};
     std::string camchain;
     for (std::size_t place = 0; place < info_.rig.size(); ++place) camchain += camera(place);
@@ -21,11 +21,11 @@ class KalibrWriter : public Writer {
   }
 
  private:
-  static std::string rows(const sim::Pose& pose) {
-    const std::array<double, 16> matrix = matrix_of(pose);
+  /// \param values of a square matrix, row by row.
+  static std::string rows(std::span<const double> values, std::size_t size) {
     std::string text;
-    for (std::size_t row = 0; row < 4; ++row) {
-      text += fmt::format("  - [{}]\n", numbers(std::span(matrix).subspan(4 * row, 4), ", "));
+    for (std::size_t row = 0; row < size; ++row) {
+      text += fmt::format("  - [{}]\n", numbers(values.subspan(size * row, size), ", "));
     }
     return text;
   }
@@ -43,12 +43,13 @@ class KalibrWriter : public Writer {
         "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
         "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}\n{}",
         camera_name(place),
-        place == 0 ? "" : "  T_cn_cnm1:\n" + rows(between(own, *info_.rig[place - 1])),
+        place == 0 ? ""
+                   : "  T_cn_cnm1:\n" + rows(matrix_of(between(own, *info_.rig[place - 1])), 4),
         fmt::join(others, ", "), numbers(coefficients, ", "),
         coefficients.size() > 4 ? "  # the fifth is k3, which Kalibr lacks" : "",
         lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan",
         lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px,
-        camera_name(place), rows(own.T_BC.inverse() * own.T_BS),
+        camera_name(place), rows(matrix_of(own.T_BC.inverse() * own.T_BS), 4),
         own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s), shutter(place));
   }
 
@@ -65,8 +66,7 @@ class KalibrWriter : public Writer {
 
   /// Kalibr's camera-IMU calibration has no place for it.
   std::string shutter(std::size_t place) const {
-    const std::vector<scenario::RigCamera>& rig = info_.scenario.cameras;
-    const scenario::Camera& camera = rig.empty() ? info_.scenario.camera : rig[place].camera;
+    const scenario::Camera camera = scenario::seen_by(info_.scenario, place).camera;
     if (camera.rolling_shutter_s == 0) return "";
     return fmt::format("  # rolling shutter: row y is {} s times y later than the first row\n",
                        camera.rolling_shutter_s / camera.height_px);
@@ -80,11 +80,8 @@ class KalibrWriter : public Writer {
     if (info_.scenario.imu.gyroscopes != scenario::Gyroscopes{} ||
         accelerometers != scenario::Accelerometers{}) {
       const auto matrix = [](const char* name, const Eigen::Matrix3d& m) {
-        std::string rows;
-        for (int row = 0; row < 3; ++row) {
-          rows += fmt::format("  - [{}, {}, {}]\n", m(row, 0), m(row, 1), m(row, 2));
-        }
-        return fmt::format("  {}:\n{}", name, rows);
+        const Eigen::Matrix3d by_column = m.transpose();
+        return fmt::format("  {}:\n{}", name, rows({by_column.data(), 9}, 3));
       };
       text = "model: scale-misalignment\naccelerometers:\n" + matrix("M", accelerometers.M) +
              "gyroscopes:\n" + matrix("A", A) + matrix("C_gyro_i", C_gyro_i) + matrix("M", M);
@@ -102,8 +99,6 @@ class KalibrWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_kalibr_writer(const SequenceInfo& info) {
-  return std::make_unique<KalibrWriter>(info);
-}
+const MakeWriter make_kalibr_writer = make_writer<KalibrWriter>;
 
 }  // namespace lcs::sequence

@@ -20,7 +20,7 @@ class KittiWriter : public Writer {
     output.rows["kitti_poses"] = numbers(std::span(T_WC).first(12), " ") + "\n";
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     if (!info_.is_first()) return {};
     std::string calibration;
     for (std::size_t i = 0; i < info_.rig.size(); ++i) {
@@ -65,8 +65,6 @@ class KittiWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_kitti_writer(const SequenceInfo& info) {
-  return std::make_unique<KittiWriter>(info);
-}
+const MakeWriter make_kitti_writer = make_writer<KittiWriter>;
 
 }  // namespace lcs::sequence

@@ -30,19 +30,20 @@ class LandmarksWriter : public Writer {
     cv::Mat1b grey;
     cv::cvtColor(o.image, grey, cv::COLOR_BGR2GRAY);
     const std::vector<Eigen::Vector2f> corners = detector_.detect(grey);
-    bench::FrameRecord seen;
+    recording::FrameRecord seen;
     seen.index = o.index;
     seen.t_ns = frame.stamp_ns;
     seen.corners_px = corners;
     rectifier_.rectify(seen.corners_px);
     seen.corner_truth = labels_of(o.truth, seen.corners_px);
     seen.object_truth = rectifier_.rectified(o.objects, o.truth.object);
-    output.rows["truth"] = bench::seen_line(seen) + '\n';
+    output.rows["truth"] = recording::seen_line(seen) + '\n';
     const std::vector<sim::CornerTruth> truth = labels_in_picture(o.truth, corners);
     std::string& rows = output.rows["landmarks"];
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const sim::CornerTruth& corner = truth[i];
-      const std::string_view label = bench::names_of(corner.label)[static_cast<int>(corner.label)];
+      const std::string_view label =
+          recording::names_of(corner.label)[static_cast<int>(corner.label)];
       const bool is_landmark = corner.label != sim::Label::none;
       const auto pair = [&](const Eigen::Vector2d& v) {
         return is_landmark ? or_empty(v.x()) + "," + or_empty(v.y()) : ",";
@@ -54,13 +55,13 @@ class LandmarksWriter : public Writer {
     }
   }
 
-  std::vector<Document> documents() const override {
-    return {
-        {"landmarks.csv",
-         {{.text = "frame,x_px,y_px,object,depth_m,motion_x_px,motion_y_px,static_motion_x_px,"
-                   "static_motion_y_px,label,radial\n"},
-          {.stream = "landmarks"}}},
-        {kTruthFile, {{.text = bench::objects_line(info_.objects) + '\n'}, {.stream = "truth"}}}};
+  std::vector<SequenceDocument> documents() const override {
+    return {{"landmarks.csv",
+             {{.text = "frame,x_px,y_px,object,depth_m,motion_x_px,motion_y_px,static_motion_x_px,"
+                       "static_motion_y_px,label,radial\n"},
+              {.stream = "landmarks"}}},
+            {kTruthFile,
+             {{.text = recording::objects_line(info_.objects) + '\n'}, {.stream = "truth"}}}};
   }
 
  private:
@@ -100,8 +101,6 @@ class LandmarksWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_landmarks_writer(const SequenceInfo& info) {
-  return std::make_unique<LandmarksWriter>(info);
-}
+const MakeWriter make_landmarks_writer = make_writer<LandmarksWriter>;
 
 }  // namespace lcs::sequence

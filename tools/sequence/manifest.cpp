@@ -1,10 +1,7 @@
 #include "tools/sequence/manifest.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
@@ -19,10 +16,9 @@ constexpr input::FileKind kManifestDocument{
     4 * input::kGibibyte,  // one file of each kind per frame, for a million frames
     "choose another folder with --out, or remove this one to make the sequence anew"};
 
-std::string manifest_text(const bench::Provenance& plan, const Agreements& checks,
+std::string manifest_text(const files::Provenance& plan, const Agreements& checks,
                           std::vector<FileRecord> files) {
-  std::sort(files.begin(), files.end(),
-            [](const FileRecord& a, const FileRecord& b) { return a.path < b.path; });
+  std::ranges::sort(files, {}, &FileRecord::path);
   Json manifest;
   manifest["plan"] = plan.json();
   for (const auto& [name, agreement] : checks) {
@@ -31,26 +27,21 @@ std::string manifest_text(const bench::Provenance& plan, const Agreements& check
   for (const FileRecord& file : files) {
     manifest["files"][file.path] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
   }
-  return bench::json_text(manifest, 1) + "\n";
+  return files::json_text(manifest, 1) + "\n";
 }
 
-bench::Provenance read_provenance(const fs::path& file) {
-  return bench::read_json(file, kManifestDocument, [](const bench::JsonNode& node) {
-    return bench::Provenance::from(node.json());
-  });
-}
-
-bench::Provenance provenance_in(const fs::path& manifest) {
-  return bench::read_json(manifest, kManifestDocument, [](const bench::JsonNode& node) {
-    return bench::Provenance::from(node["plan"].json());
+files::Provenance provenance_in(const fs::path& file) {
+  return files::read_json(file, kManifestDocument, [&](const files::JsonNode& node) {
+    const bool is_manifest = file.filename() == kManifestFile;
+    return files::Provenance::from(is_manifest ? node["plan"].json() : node.json());
   });
 }
 
 std::vector<std::string> files_in_manifest(const fs::path& manifest) {
   std::vector<std::string> paths;
-  bench::read_json(manifest, kManifestDocument, [&](const bench::JsonNode& node) {
-    node["files"].each_entry([&](const std::string& path, const bench::JsonNode& record) {
-      record.require(bench::is_inner(path), "of a file inside of the sequence");
+  files::read_json(manifest, kManifestDocument, [&](const files::JsonNode& node) {
+    node["files"].each_entry([&](const std::string& path, const files::JsonNode& record) {
+      record.require(files::is_inner(path), "of a file inside of the sequence");
       paths.push_back(path);
     });
   });

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/provenance.h"
 #include "tools/sequence/self_check.h"
 
@@ -25,14 +26,17 @@ struct FileRecord {
 /// Agreements by the name of what was compared, as "flow_px".
 using Agreements = std::map<std::string, Agreement>;
 
-std::string manifest_text(const bench::Provenance& plan, const Agreements& checks,
+std::string manifest_text(const files::Provenance& plan, const Agreements& checks,
                           std::vector<FileRecord> files);
 
-/// A provenance in a file of its own, or in a manifest. \throws input::Error
-///@{
-bench::Provenance read_provenance(const std::filesystem::path& file);
-bench::Provenance provenance_in(const std::filesystem::path& manifest);
-///@}
+/// The provenance in a manifest, or in a file of its own. \throws input::Error
+files::Provenance provenance_in(const std::filesystem::path& file);
+
+/// The bytes of a file of a sequence. \throws input::Error
+inline std::string read_file(const std::filesystem::path& path) {
+  // the longest is a table of all frames
+  return input::read_file(path, {16 * input::kGibibyte, "generate the sequence again"});
+}
 
 /// The paths of the files of a finished sequence, without the manifest. \throws input::Error, also
 /// for a path that leads out of the sequence.

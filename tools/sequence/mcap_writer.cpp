@@ -68,12 +68,12 @@ class McapWriter : public Writer {
                        {"v_C", numbers_of(T_WC.R.transpose() * o.truth.v_WC_mps)},
                        {"w_C", numbers_of(o.truth.w_C_radps)}};
     }
-    output.rows["mcap"] = bench::json_text(json) + "\n";
+    output.rows["mcap"] = files::json_text(json) + "\n";
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     if (!info_.is_first()) return {};
-    Document bag{kBagFile, {{.text = bench::json_text(sensors()) + "\n"}}};
+    SequenceDocument bag{kBagFile, {{.text = files::json_text(sensors()) + "\n"}}};
     for (std::size_t place = 0; place < info_.rig.size(); ++place) {
       const std::string of = place == 0 ? "" : camera_name(place) + "/";
       bag.parts.push_back({.stream = of + "mcap"});
@@ -113,17 +113,6 @@ class McapWriter : public Writer {
 
 }  // namespace
 
-std::string bag_library() {
-  return run_script("write_bag.py", {"--version"});
-}
-
-void write_bag(const std::filesystem::path& messages, const std::filesystem::path& sequence,
-               const std::filesystem::path& out) {
-  run_script("write_bag.py", {messages.string(), sequence.string(), out.string()});
-}
-
-std::unique_ptr<Writer> make_mcap_writer(const SequenceInfo& info) {
-  return std::make_unique<McapWriter>(info);
-}
+const MakeWriter make_mcap_writer = make_writer<McapWriter>;
 
 }  // namespace lcs::sequence

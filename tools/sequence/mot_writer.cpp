@@ -26,7 +26,7 @@ class MotWriter : public Writer {
     }
   }
 
-  std::vector<Document> documents() const override {
+  std::vector<SequenceDocument> documents() const override {
     const sim::Pinhole& camera = info_.calibration.camera;
     const std::string info = fmt::format(
         "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\n"
@@ -43,8 +43,6 @@ class MotWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_mot_writer(const SequenceInfo& info) {
-  return std::make_unique<MotWriter>(info);
-}
+const MakeWriter make_mot_writer = make_writer<MotWriter>;
 
 }  // namespace lcs::sequence

@@ -15,23 +15,14 @@ constexpr std::array<std::string_view, 12> kMotClasses{
     "occluder",   "occluder on the ground", "occluder full", "reflection"};
 constexpr int kMotDistractor = 8;
 
+/// In the order of `scenario::Shape`.
+constexpr std::array<const char*, 6> kCategories{"box", "cylinder",   "pedestrian",
+                                                 "car", "pedestrian", "object"};
+static_assert(kCategories.size() == static_cast<std::size_t>(scenario::Shape::own) + 1);
+
 std::string category_of(const scenario::Actor& actor) {
   if (!actor.kind.empty()) return actor.kind;
-  if (actor.body) return "object";
-  switch (actor.shape) {
-    case scenario::Shape::box:
-      return "box";
-    case scenario::Shape::cylinder:
-      return "cylinder";
-    case scenario::Shape::pedestrian:
-    case scenario::Shape::walker:
-      return "pedestrian";
-    case scenario::Shape::car:
-      return "car";
-    case scenario::Shape::own:
-      break;
-  }
-  return "object";
+  return actor.body ? "object" : kCategories[static_cast<std::size_t>(actor.shape)];
 }
 
 /// Place in a list, from 1; 0 for none.

@@ -6,6 +6,8 @@
 
 namespace lcs::sequence {
 
+using RowByRow = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
 /// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers.
 std::string numbers(std::span<const double> values, const char* separator) {
   std::string text;
@@ -43,30 +45,17 @@ Eigen::Quaterniond quaternion_of(const sim::Pose& pose) {
 
 std::array<double, 16> matrix_of(const sim::Pose& pose) {
   std::array<double, 16> matrix{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      matrix[static_cast<std::size_t>(4 * row + column)] = pose.R(row, column);
-    }
-    matrix[static_cast<std::size_t>(4 * row + 3)] = pose.p[row];
-  }
-  matrix[15] = 1;
+  Eigen::Map<RowByRow>(matrix.data()) << pose.R, pose.p, Eigen::RowVector4d::UnitW();
   return matrix;
 }
 
 sim::Pose pose_of(const std::array<double, 16>& matrix) {
   constexpr double kTolerance = 1e-6;  // calibration matrices are printed with 7 digits or more
-  sim::Pose pose;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      pose.R(row, column) = matrix[static_cast<std::size_t>(4 * row + column)];
-    }
-    pose.p[row] = matrix[static_cast<std::size_t>(4 * row + 3)];
-  }
+  const Eigen::Map<const RowByRow> all(matrix.data());
+  const sim::Pose pose{all.topLeftCorner<3, 3>(), all.topRightCorner<3, 1>()};
   const bool is_rotation = (pose.R * pose.R.transpose()).isIdentity(kTolerance) &&
                            pose.R.determinant() > 0 && pose.p.allFinite();
-  const bool has_last_row =
-      matrix[12] == 0 && matrix[13] == 0 && matrix[14] == 0 && matrix[15] == 1;
-  if (!is_rotation || !has_last_row) {
+  if (!is_rotation || all.row(3) != Eigen::RowVector4d::UnitW()) {
     throw std::invalid_argument("is not a rigid transform (a rotation, a translation, 0 0 0 1)");
   }
   return pose;

@@ -1,11 +1,10 @@
-#include "tools/sequence/readme.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tools/sequence/pose_text.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -16,16 +16,13 @@ namespace {
 
 // Keys in a readable order.
 using Json = nlohmann::ordered_json;
-using Node = bench::JsonNode;
+using Node = files::JsonNode;
 
 constexpr const char* kImu = "imu";
 constexpr const char* kTruth = "truth";
 constexpr const char* kFromPicture = "auto";
 constexpr const char* kEquidistant = "equidistant";
 
-Json vector_json(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 /// Larger values leave dead reckoning without precise digits.
 constexpr double kMost = 1e6;
 
@@ -43,18 +40,6 @@ int pixels_in(const Node& node) {
   const int pixels = node.natural<int>();
   node.require(pixels > 0, "above 0");
   return pixels;
-}
-
-/// Parses a corner threshold; the detector checks its range.
-std::optional<int> threshold_in(const Node& node) {
-  if (node.is_text(kFromPicture)) return std::nullopt;
-  return node.natural<int>();
-}
-
-double above_zero_in(const Node& node) {
-  const double number = node.number();
-  node.require(number > 0 && number <= kMost, "above 0 and at most a million");
-  return number;
 }
 
 double not_negative_in(const Node& node) {
@@ -136,7 +121,10 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
     origin.family = node["origin"]["family"].text();
     origin.seed = node["origin"]["seed"].natural();
   }
-  scenario.camera.rate_hz = above_zero_in(node["camera_rate_hz"]);
+  const Node rate = node["camera_rate_hz"];
+  scenario.camera.rate_hz = rate.number();
+  rate.require(scenario.camera.rate_hz > 0 && scenario.camera.rate_hz <= kMost,
+               "above 0 and at most a million");
   const std::string source = node["ego_motion"].text();
   node["ego_motion"].require(source == kImu || source == kTruth, "imu or truth");
   scenario.ego_motion =
@@ -149,7 +137,9 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   if (node.has("odometry_yaw_noise_radps")) {  // older sequences lack the yaw rate
     scenario.odometry.yaw_noise_radps = not_negative_in(node["odometry_yaw_noise_radps"]);
   }
-  scenario.fast_threshold = threshold_in(node["fast_threshold"]);
+  const Node threshold = node["fast_threshold"];
+  scenario.fast_threshold.reset();  // the detector checks the range of a number
+  if (!threshold.is_text(kFromPicture)) scenario.fast_threshold = threshold.natural<int>();
   scenario.filter_preset = node["filter_preset"].text();
   scenario.filter_preset_source = {file, 0};
   node["filter"].each_entry([&](const std::string& key, const Node& value) {
@@ -176,6 +166,7 @@ Json lens_json(const sim::Lens& lens) {
 std::string settings_text(const SequenceInfo& info) {
   const scenario::Scenario& scenario = info.scenario;
   const sim::Calibration& calibration = info.calibration;
+  const Eigen::Vector3d& v = calibration.v_WB_start_mps;
   Json noise;
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
   Json filter = Json::object();
@@ -191,7 +182,7 @@ std::string settings_text(const SequenceInfo& info) {
       {"T_BC", matrix_of(calibration.T_BC)},
       {"T_BS", matrix_of(calibration.T_BS)},
       {"T_WB_start", matrix_of(calibration.T_WB_start)},
-      {"v_WB_start_mps", vector_json(calibration.v_WB_start_mps)},
+      {"v_WB_start_mps", {v.x(), v.y(), v.z()}},
       {"gravity_mps2", calibration.gravity_mps2},
       {"on_ground", calibration.on_ground},
       {"ego_motion", scenario.ego_motion == scenario::EgoMotionSource::truth ? kTruth : kImu},
@@ -214,14 +205,14 @@ std::string settings_text(const SequenceInfo& info) {
                                {"T_BC", matrix_of(info.rig[i]->T_BC)}});
     json["filter_place"] = info.place;
   }
-  return bench::json_text(json, 2) + "\n";
+  return files::json_text(json, 2) + "\n";
 }
 
 ReplaySettings read_settings(const std::filesystem::path& file) {
   constexpr input::FileKind kSettingsDocument{
       input::kMebibyte,
       "correct it, or take it away to replay the sequence by its other files alone"};
-  return bench::read_json(file, kSettingsDocument, [&](const Node& node) {
+  return files::read_json(file, kSettingsDocument, [&](const Node& node) {
     ReplaySettings settings;
     read_scenario(node, file.string(), settings.scenario);
     read_calibration(node, file.string(), settings);

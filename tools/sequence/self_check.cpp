@@ -49,11 +49,6 @@ template <class... Arguments>
                   frame, fmt::format(what, std::forward<Arguments>(arguments)...)));
 }
 
-Vector2d decoded(const cv::Vec3w& code) {
-  const double zero = kKittiFlowZero, scale = kKittiFlowScale;
-  return {(code[0] - zero) / scale, (code[1] - zero) / scale};
-}
-
 /// Interpolated inverse depth on a flat surface, where it is linear; absent if not flat.
 std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vector2d& px) {
   const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
@@ -108,36 +103,20 @@ bool is_steady(const cv::Mat2f& motion_px, int x, int y) {
          change_px(x, y + 1) < kMostScaling;
 }
 
-struct State {
-  Eigen::Matrix3d R_WS;
-  Vector3d v_WS_mps;
-};
-
-/// Integrates attitude and velocity over one step by its mean rates.
-State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, double gravity,
-                double dt_s) {
-  const auto turn = [](const Vector3d& angle) {
-    const double norm = angle.norm();
-    return norm > 0 ? Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix()
-                    : Eigen::Matrix3d::Identity().eval();
-  };
-  const Eigen::Matrix3d R_middle = from.R_WS * turn(0.5 * dt_s * gyro);
-  return {from.R_WS * turn(dt_s * gyro),
-          from.v_WS_mps + dt_s * (R_middle * accel - gravity * Vector3d::UnitZ())};
-}
-
 }  // namespace
 
 Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen) {
-  const sim::Way here(now.truth, motion_px.rows), after(next.truth, motion_px.rows);
+  const sim::PointMotion here(now.truth, motion_px.rows), after(next.truth, motion_px.rows);
+  constexpr double zero = kKittiFlowZero, scale = kKittiFlowScale;
   Agreement agreement;
   for (int y = 0; y < motion_px.rows; y += kFlowStride) {
     for (int x = 0; x < motion_px.cols; x += kFlowStride) {
       const cv::Vec3w code = kitti_code(motion_px(y, x), seen(y, x) != 0);
       if (code[2] == 0) continue;
-      const Vector2d goal = Vector2d(x, y) + decoded(code);
+      const Vector2d decoded = Vector2d(code[0] - zero, code[1] - zero) / scale;
+      const Vector2d goal = Vector2d(x, y) + decoded;
       const int carrier = now.truth.carrier()(y, x);
       const auto there = cv::Point(static_cast<int>(goal.x()), static_cast<int>(goal.y()));
       if (carrier < 0 || next.truth.carrier()(there) != carrier) continue;
@@ -311,7 +290,13 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
                             const std::optional<double>& resolution) {
     return range && reading.cwiseAbs().maxCoeff() >= *range - resolution.value_or(0);
   };
-  State state{truth.front().T_WS.R, truth.front().v_WS_mps};
+  const auto turn = [](const Vector3d& angle) {
+    const double norm = angle.norm();
+    return norm > 0 ? Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix()
+                    : Eigen::Matrix3d::Identity().eval();
+  };
+  Eigen::Matrix3d R_WS = truth.front().T_WS.R;
+  Vector3d v_WS_mps = truth.front().v_WS_mps;
   for (std::size_t i = 1; i < truth.size(); ++i) {
     const sim::ImuSample& sample = frame.imu[i];
     if (is_beyond(sample.gyro_radps, range_radps, resolution_radps) ||
@@ -323,8 +308,11 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
     const Vector3d gyro = C_gyro_i.transpose() * M.triangularView<Eigen::Lower>().solve(
                                                      sample.gyro_radps - truth[i].gyro_bias_radps -
                                                      A * (C_gyro_i * accel));
-    state = integrate(state, gyro, accel, gravity_mps2,
-                      static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9);
+    // Integrates attitude and velocity over one step by its mean rates.
+    const double dt_s = static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9;
+    const Eigen::Matrix3d R_middle = R_WS * turn(0.5 * dt_s * gyro);
+    v_WS_mps += dt_s * (R_middle * accel - gravity_mps2 * Vector3d::UnitZ());
+    R_WS *= turn(dt_s * gyro);
   }
   const double span_s = static_cast<double>(truth.back().t_ns - truth.front().t_ns) * 1e-9;
   // Rounding errors of a static, noiseless IMU.
@@ -337,8 +325,8 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
                           kDeviations * imu.noise.accelerometer_noise_density * std::sqrt(span_s) +
                           resolution_mps2.value_or(0) * span_s + gravity_mps2 * span_s * most_rad;
   const double turned_rad =
-      Eigen::AngleAxisd(Eigen::Matrix3d(truth.back().T_WS.R.transpose() * state.R_WS)).angle();
-  const double off_mps = (state.v_WS_mps - truth.back().v_WS_mps).norm();
+      Eigen::AngleAxisd(Eigen::Matrix3d(truth.back().T_WS.R.transpose() * R_WS)).angle();
+  const double off_mps = (v_WS_mps - truth.back().v_WS_mps).norm();
   agreement.add(turned_rad / most_rad);
   agreement.add(off_mps / most_mps);
   if (!(turned_rad <= most_rad && off_mps <= most_mps)) {

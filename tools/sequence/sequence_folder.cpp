@@ -11,12 +11,9 @@
 #include <tuple>
 #include <utility>
 
-#include "scenarios/input/message.h"
 #include "scenarios/input/sha256.h"
 #include "tools/files/json_node.h"
 #include "tools/files/written.h"
-#include "tools/sequence/readme.h"
-#include "tools/sequence/text_file.h"
 
 namespace lcs::sequence {
 
@@ -29,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPlan = "plan.json";
-constexpr std::string_view kFrames = "frames-", kPartial = ".partial";
+constexpr const char* kFrames = "frames-";
 constexpr const char* kSign = "# Written by `lcs generate`: the frames that are finished";
 constexpr const char* kRemedy = "remove this file to have its frames made again";
 constexpr const char* kFormats = "formats";
@@ -38,12 +34,8 @@ constexpr const char* kFormats = "formats";
 constexpr std::array<std::string_view, 3> kOfFormats{kFormats, "rosbags", "h5py"};
 
 /// Formats decide the names of a sequence's files.
-bench::ResultNames sequence_files() {
+files::ResultNames sequence_files() {
   return {"*", "*/*", "*/*/*", "*/*/*/*", "*/*/*/*/*", "*/*/*/*/*/*"};
-}
-
-[[noreturn]] void fail_to_write(const fs::path& path, const std::error_code& error) {
-  bench::fail_to("write", path, error);
 }
 
 /// Moves a finished file to its place, in a folder that may be missing.
@@ -54,7 +46,7 @@ void move(const fs::path& from, const fs::path& to) {
   if (!error) return;
   std::error_code ignored;
   fs::remove(from, ignored);
-  fail_to_write(to, error);
+  files::fail_to("write", to, error);
 }
 
 /// A name that no other process has, also on another machine.
@@ -69,7 +61,7 @@ std::string own_name() {
 SequenceFolder::SequenceFolder(const fs::path& target, const fs::path& base, bool adds,
                                bool is_part, std::function<void()> wait)
     : output_(target, sequence_files(),
-              is_part ? bench::Unfinished::shared : bench::Unfinished::kept, std::move(wait)),
+              is_part ? files::Unfinished::shared : files::Unfinished::kept, std::move(wait)),
       base_(base),
       adds_(adds) {
   if (fs::exists(output_.target() / kManifestFile)) {
@@ -78,72 +70,63 @@ SequenceFolder::SequenceFolder(const fs::path& target, const fs::path& base, boo
 }
 
 std::vector<std::string> SequenceFolder::formats() const {
-  std::vector<std::string> names;
-  if (!finished_ || !finished_->facts.contains(kFormats)) return names;
-  bench::JsonNode(finished_->facts, "")[kFormats].each(
-      [&](const bench::JsonNode& name) { names.push_back(name.text()); });
-  return names;
+  if (!finished_ || !finished_->facts.contains(kFormats)) return {};
+  return files::JsonNode(finished_->facts, "")[kFormats].texts();
 }
 
 /// The first difference from the asked sequence; "" if there is none.
 /// \param but names of facts that may differ.
-std::string SequenceFolder::other_than(const bench::Provenance& there,
+std::string SequenceFolder::other_than(const files::Provenance& there,
                                        std::span<const std::string_view> but) const {
-  const std::string what = bench::difference(there, {.facts = facts_, .read = {}}, but);
-  return what.empty() ? bench::changed_since(there, base_) : what;
+  const std::string what = files::difference(there, {.facts = facts_, .read = {}}, but);
+  return what.empty() ? files::changed_since(there, base_) : what;
 }
 
-bool SequenceFolder::is_complete(const bench::Provenance::Json& facts) {
+bool SequenceFolder::is_complete(const files::Provenance::Json& facts) {
   facts_ = facts;
   if (finished_) {
     const auto may_differ = adds_ ? std::span(kOfFormats) : std::span<const std::string_view>();
     if (const std::string what = other_than(*finished_, may_differ); !what.empty()) {
-      throw bench::OutputError(fmt::format(
+      throw files::OutputError(fmt::format(
           "{} holds another sequence: {}; choose another folder with --out, or remove it",
           target().string(), what));
     }
-    if (const std::string damage = bench::first_difference(target()); !damage.empty()) {
-      throw bench::OutputError(
+    if (const std::string damage = files::first_difference(target()); !damage.empty()) {
+      throw files::OutputError(
           fmt::format("{}: {}; remove the folder to make it anew", target().string(), damage));
     }
-    if (bench::difference(*finished_, {.facts = facts_, .read = {}}).empty()) return true;
+    if (files::difference(*finished_, {.facts = facts_, .read = {}}).empty()) return true;
   } else if (adds_) {
-    throw bench::OutputError(
+    throw files::OutputError(
         fmt::format("{} holds no finished sequence to add formats to; leave --add out to make one, "
                     "or name another folder with --out",
                     target().string()));
   }
   if (!fs::exists(plan_file())) return false;
-  const std::string what = other_than(read_provenance(plan_file()));
+  const std::string what = other_than(provenance_in(plan_file()));
   if (what.empty()) return false;
-  throw bench::OutputError(fmt::format(
+  throw files::OutputError(fmt::format(
       "{} holds frames of another sequence that is not finished: {}; finish it by its own command, "
       "or remove that folder",
       staging().parent_path().string(), what));
 }
 
-fs::path SequenceFolder::plan_file() const {
-  return output_.work() / kPlan;
-}
-
 /// Puts the plan beside the frames, and opens the journal.
 void SequenceFolder::begin() {
   if (journal_) return;
-  const bench::Provenance own = bench::provenance_of(facts_, base_);
+  const files::Provenance own = files::provenance_of(facts_, base_);
   if (fs::exists(plan_file())) {
-    if (const auto what = bench::difference(read_provenance(plan_file()), own); !what.empty()) {
-      throw bench::OutputError(fmt::format(
+    if (const auto what = files::difference(provenance_in(plan_file()), own); !what.empty()) {
+      throw files::OutputError(fmt::format(
           "{}: {} from the frames that are there; give the same command again for its remedy",
           target().string(), what));
     }
   } else {
-    const fs::path beside = output_.work() / fmt::format("{}{}", own_name(), kPartial);
-    bench::write_file(beside, bench::json_text(own.json()));
-    move(beside, plan_file());
+    put(plan_file(), files::json_text(own.json()));
   }
   if (finished_) take_earlier();
-  journal_.emplace(output_.work() / fmt::format("{}{}", kFrames, own_name()), kSign, own, "frame",
-                   kRemedy, [](const std::string&, int) {});
+  journal_.emplace(output_.work() / (kFrames + own_name()), kSign, own, "frame", kRemedy,
+                   [](const std::string&, int) {});
   output_.keep();
 }
 
@@ -154,8 +137,8 @@ void SequenceFolder::take_earlier() const {
     const fs::path to = staging() / path;
     if (path == kReadmeFile || fs::exists(to)) continue;
     fs::create_directories(to.parent_path(), error);
-    if (error) fail_to_write(to, error);
-    bench::link_or_copy(target() / path, to);
+    if (error) files::fail_to("write", to, error);
+    files::link_or_copy(target() / path, to);
   }
 }
 
@@ -170,7 +153,7 @@ void SequenceFolder::refresh() {
   for (auto& [path, journal] : journals_) {
     journal.read([&, &journal = journal](const std::string& row, int line) {
       try {
-        const nlohmann::json json = bench::parse_json<nlohmann::json>(row);
+        const nlohmann::json json = files::parse_json<nlohmann::json>(row);
         entries_[json.at("frame").get<int>()] = json.at("entry").get<FrameEntry>();
       } catch (const std::exception&) {
         journal.refuse(line, "the row is no entry of a frame");
@@ -203,12 +186,6 @@ const FrameEntry& SequenceFolder::read(int frame) {
   throw std::runtime_error(fmt::format("{}: frame {} is not finished", target().string(), frame));
 }
 
-bool SequenceFolder::is_finished_by_another() const {
-  const fs::path manifest = target() / kManifestFile;
-  return !fs::exists(staging()) && fs::exists(manifest) &&
-         other_than(provenance_in(manifest)).empty();
-}
-
 void SequenceFolder::add(int frame, const FrameOutput& output, const Agreements& checks) {
   try {
     begin();
@@ -230,9 +207,12 @@ void SequenceFolder::add(int frame, const FrameOutput& output, const Agreements&
       }
       entry.files.push_back(record);
     }
-    journal_->add(bench::json_text(nlohmann::json{{"frame", frame}, {"entry", entry}}));
-  } catch (const bench::OutputError&) {
-    if (!is_finished_by_another()) throw;
+    journal_->add(files::json_text(nlohmann::json{{"frame", frame}, {"entry", entry}}));
+  } catch (const files::OutputError&) {
+    const fs::path manifest = target() / kManifestFile;
+    const bool is_finished_by_another = !fs::exists(staging()) && fs::exists(manifest) &&
+                                        other_than(provenance_in(manifest)).empty();
+    if (!is_finished_by_another) throw;
   }
 }
 
@@ -243,8 +223,13 @@ void SequenceFolder::write(const fs::path& within, std::string_view bytes) const
       fs::file_size(path, error) == bytes.size() && read_file(path) == bytes) {
     return;
   }
-  const fs::path beside = output_.work() / fmt::format("{}{}", own_name(), kPartial);
-  bench::write_file(beside, bytes);
+  put(path, bytes);
+}
+
+/// Writes a file beside the sequence, then moves it to its place.
+void SequenceFolder::put(const fs::path& path, std::string_view bytes) const {
+  const fs::path beside = output_.work() / (own_name() + ".partial");
+  files::write_file(beside, bytes);
   move(beside, path);
 }
 
@@ -267,13 +252,13 @@ std::vector<FileRecord> SequenceFolder::add_folder(
 }
 
 void SequenceFolder::finish(const Agreements& checks, std::vector<FileRecord> files) {
-  std::set<fs::path> own{kManifestFile, bench::kRecordName};
+  std::set<fs::path> own{kManifestFile, files::kRecordName};
   for (const FileRecord& file : files) own.insert(file.path);
-  write(kManifestFile, manifest_text(read_provenance(plan_file()), checks, std::move(files)));
-  for (const fs::directory_entry& entry : bench::entries_below(staging())) {
+  write(kManifestFile, manifest_text(provenance_in(plan_file()), checks, std::move(files)));
+  for (const fs::directory_entry& entry : files::entries_below(staging())) {
     const fs::path within = entry.path().lexically_relative(staging());
     if (entry.symlink_status().type() == fs::file_type::directory || own.contains(within)) continue;
-    throw bench::OutputError(
+    throw files::OutputError(
         fmt::format("{} is no file of the sequence; move it away, and give the same command again",
                     entry.path().string()));
   }

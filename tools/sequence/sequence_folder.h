@@ -6,7 +6,6 @@
 /// nothing.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -19,8 +18,8 @@
 #include "tools/files/journal.h"
 #include "tools/files/output.h"
 #include "tools/files/provenance.h"
-#include "tools/sequence/frame_output.h"
 #include "tools/sequence/manifest.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 
@@ -49,7 +48,7 @@ class SequenceFolder {
   /// \param facts all settings that determine its bytes.
   /// \return whether the target has it already, whole and as it was written.
   /// \throws bench::OutputError that names the first difference of another sequence.
-  bool is_complete(const bench::Provenance::Json& facts);
+  bool is_complete(const files::Provenance::Json& facts);
 
   /// Whether a frame is finished and its files are as they were written.
   bool is_whole(int frame);
@@ -82,22 +81,22 @@ class SequenceFolder {
   const std::filesystem::path& staging() const { return output_.staging(); }
 
  private:
-  std::filesystem::path plan_file() const;
+  std::filesystem::path plan_file() const { return output_.work() / "plan.json"; }
+  void put(const std::filesystem::path& path, std::string_view bytes) const;
   void begin();
   void refresh();
   const FrameEntry* find(int frame);
   void take_earlier() const;
-  std::string other_than(const bench::Provenance& there,
+  std::string other_than(const files::Provenance& there,
                          std::span<const std::string_view> but = {}) const;
-  bool is_finished_by_another() const;
 
-  bench::Output output_;
+  files::Output output_;
   std::filesystem::path base_;
   bool adds_;
-  std::optional<bench::Provenance> finished_;  ///< of the sequence in the target
-  bench::Provenance::Json facts_;
-  std::optional<bench::Journal> journal_;  ///< of this process
-  std::map<std::filesystem::path, bench::JournalReader> journals_;
+  std::optional<files::Provenance> finished_;  ///< of the sequence in the target
+  files::Provenance::Json facts_;
+  std::optional<files::Journal> journal_;  ///< of this process
+  std::map<std::filesystem::path, files::JournalReader> journals_;
   std::map<int, FrameEntry> entries_;
 };
 

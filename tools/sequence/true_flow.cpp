@@ -21,7 +21,7 @@ struct Carrier {
 };
 
 /// \param row of frame k; `next_row` of frame k+1, which differs by point with a rolling shutter.
-std::vector<Carrier> carriers_of(const sim::Way& way, double row, double next_row) {
+std::vector<Carrier> carriers_of(const sim::PointMotion& way, double row, double next_row) {
   std::vector<Carrier> carriers;
   for (std::size_t id = 0; id < way.moves().size(); ++id) {
     carriers.push_back({way.in_next(id, way.T_WC(row), row, next_row), way.moves(id)});
@@ -64,7 +64,7 @@ struct NextView : Surfaces {
 
 TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
                    const cv::Mat1i& surface_id, const Surfaces& next_surfaces) {
-  const sim::Way way(truth, truth.depth_m.rows);
+  const sim::PointMotion way(truth, truth.depth_m.rows);
   const bool rolls = !truth.now_rows.at.empty();
   const std::vector<Carrier> carriers = carriers_of(way, 0, 0);
   const NextView next{next_surfaces};

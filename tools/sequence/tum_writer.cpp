@@ -16,8 +16,8 @@ class TumWriter : public Writer {
     for (const sim::ImuTruth& state : frame.now.imu_truth)
       imu += pose_line(kEpoch_ns + state.t_ns, state.T_WS);
   }
-  std::vector<Document> documents() const override {
-    std::vector<Document> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
+  std::vector<SequenceDocument> documents() const override {
+    std::vector<SequenceDocument> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
     if (info_.is_first()) all.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
     return all;
   }
@@ -25,8 +25,6 @@ class TumWriter : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info) {
-  return std::make_unique<TumWriter>(info);
-}
+const MakeWriter make_tum_writer = make_writer<TumWriter>;
 
 }  // namespace lcs::sequence

@@ -1,8 +1,11 @@
 /// \file
-/// Interface of a format's writer, which turns simulated frames into files and rows.
+/// Interface of a format's writer, which turns simulated frames into files of their own, and rows
+/// of the files that all frames share.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,7 +14,6 @@
 
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
-#include "tools/sequence/frame_output.h"
 #include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
@@ -20,6 +22,34 @@ namespace lcs::sequence {
 /// a clock. Files sorted by name are in time order, and tools that build names from numbers find
 /// them.
 inline constexpr std::int64_t kEpoch_ns = 1'000'000'000'000'000'000;
+
+/// A file of one frame only. Paths are relative to the sequence's folder.
+struct FrameFile {
+  std::string path;
+  std::string bytes;
+  std::string same_as;  ///< path of an identical file of this frame; `bytes` is empty then
+};
+
+/// Rows of one frame by stream name.
+using Rows = std::map<std::string, std::string>;
+
+struct FrameOutput {
+  std::vector<FrameFile> files;
+  Rows rows;
+};
+
+/// A piece of a document: fixed text, or the rows of all frames in order.
+struct DocumentPart {
+  std::string text = {};       ///< fixed, or the rows so far
+  std::string stream = {};     ///< "" for fixed text
+  std::string separator = {};  ///< between the rows of two frames, if neither is empty
+};
+
+/// A file of the whole sequence.
+struct SequenceDocument {
+  std::string path;
+  std::vector<DocumentPart> parts;
+};
 
 /// Data common to all frames of one camera. The references must outlive the writers.
 struct SequenceInfo {
@@ -32,6 +62,10 @@ struct SequenceInfo {
 
   /// Whether it is cam0, whose writers have the files of the other sensors, too.
   bool is_first() const { return place == 0; }
+  /// A time of the simulation by the clock of the camera.
+  std::int64_t stamp_ns(std::int64_t t_ns) const {
+    return kEpoch_ns + t_ns - std::llround(1e9 * scenario.camera.time_offset_s);
+  }
 };
 
 /// The name of a camera's folder in EuRoC's layout. \param place in the rig, from 0.
@@ -57,21 +91,25 @@ class Writer {
   /// A pure function of the frame, so that frames may be written in any order and by any process.
   virtual void write(const FrameView&, FrameOutput&) const {}
   /// Files that contain the rows of all frames. Their paths, and the paths of a frame's files, are
-  /// for cam0; `of_camera` moves the files of another camera.
-  virtual std::vector<Document> documents() const { return {}; }
+  /// for cam0; the generator moves the files of another camera.
+  virtual std::vector<SequenceDocument> documents() const { return {}; }
 
  protected:
   SequenceInfo info_;
 };
 
-using MakeWriter = std::unique_ptr<Writer>(const SequenceInfo& info);
+using MakeWriter = std::unique_ptr<Writer> (*)(const SequenceInfo& info);
+template <class T>
+std::unique_ptr<Writer> make_writer(const SequenceInfo& info) {
+  return std::make_unique<T>(info);
+}
 
 /// A format that `lcs generate` writes.
 struct Format {
   std::string_view name;
   std::string_view purpose;  ///< one readable line
   std::string_view readme;   ///< its files, as list items for a sequence's README
-  MakeWriter* make;
+  MakeWriter make;
   double bytes_a_pixel = 0;    ///< of its files, for `estimated_bytes`
   double bytes_a_reading = 0;  ///< likewise, for each reading of the IMU
   bool is_usual = true;        ///< written if no formats are named
@@ -93,6 +131,10 @@ const std::vector<Use>& uses();
 
 /// The bytes of a sequence, to a factor of two, by the number of its pixels and readings.
 double estimated_bytes(const scenario::Scenario& scenario, const std::vector<std::string>& formats);
+
+/// The README.md of a sequence: every file, unit, frame and axis.
+std::string readme_text(const SequenceInfo& info, const std::vector<std::string>& formats);
+inline constexpr const char* kReadmeFile = "README.md";
 
 /// Path of the picture with a stamp, which is written for any formats.
 std::string picture_path(std::int64_t stamp_ns, std::size_t place = 0);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -61,23 +63,20 @@ MeanRow mean_of(const std::vector<Row>& rows, std::string_view of) {
   return mean;
 }
 
-std::vector<Row> rows_in(const SuiteResult& suite, const std::vector<Row>& rows,
-                         const std::string& group) {
-  std::vector<Row> in;
-  for (const Row& row : rows) {
-    if (is_in(*find(suite, row.name), group)) in.push_back(row);
-  }
-  return in;
-}
-
-/// The means over each group that is not empty and not everything, and over all.
-std::vector<MeanRow> means_of(const SuiteResult& suite, const std::vector<Row>& rows) {
+/// The means over each group that is not empty and not everything, and over all; none without rows.
+/// \param but leaves out the groups that have one of these rows; the group of all may then be
+/// there.
+std::vector<MeanRow> means_of(const SuiteResult& suite, const std::vector<Row>& rows,
+                              const std::optional<std::vector<Row>>& but = {}) {
   std::vector<MeanRow> means;
+  if (rows.empty()) return means;
   for (const std::string& group : groups_of(suite)) {
-    const std::vector<Row> of_group = rows_in(suite, rows, group);
-    if (!of_group.empty() && of_group.size() < rows.size()) {
-      means.push_back(mean_of(of_group, group));
-    }
+    const auto is_of_group = [&](const Row& row) { return is_in(*find(suite, row.name), group); };
+    std::vector<Row> of_group;
+    std::ranges::copy_if(rows, std::back_inserter(of_group), is_of_group);
+    const bool is_left_out =
+        but ? std::ranges::any_of(*but, is_of_group) : of_group.size() == rows.size();
+    if (!of_group.empty() && !is_left_out) means.push_back(mean_of(of_group, group));
   }
   means.push_back(mean_of(rows, "mean"));
   return means;
@@ -90,22 +89,6 @@ std::vector<Row> leads(std::vector<Row> rows) {
     for (double& figure : row.figures) figure = own - figure;
   }
   return rows;
-}
-
-/// Mean false objects in the groups without F1, where nothing moves, and over all.
-std::vector<MeanRow> false_objects(const SuiteResult& suite, std::span<const SuiteResult> others,
-                                   const std::vector<Row>& with_f1) {
-  const std::vector<Row> rows = rows_of(suite, others, kFalse);
-  std::vector<MeanRow> means;
-  if (rows.empty()) return means;
-  for (const std::string& group : groups_of(suite)) {
-    const std::vector<Row> of_group = rows_in(suite, rows, group);
-    if (!of_group.empty() && rows_in(suite, with_f1, group).empty()) {
-      means.push_back(mean_of(of_group, group));
-    }
-  }
-  means.push_back(mean_of(rows, "mean"));
-  return means;
 }
 
 /// Formats rows of figures below a header of the detectors' names.
@@ -137,7 +120,6 @@ class Columns {
     }
     end();
   }
-  void line(std::string_view words) { text_ += words; }
   const std::string& text() const { return text_; }
 
  private:
@@ -178,7 +160,7 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
   for (const Row& row : times) {
     if (row.figures[column] > 0) ratios.push_back(row.figures[0] / row.figures[column]);
   }
-  if (const auto ratio = bench::mean(ratios))
+  if (const auto ratio = scoring::mean(ratios))
     line += fmt::format("; takes {:.2f} of its time", *ratio);
   return line + '\n';
 }
@@ -187,9 +169,9 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
 
 std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
   std::string text = "| detector |", rule = "|---|";
-  const std::vector<std::string_view> keys = bench::keys_in(bench::Table::detectors);
+  const std::vector<std::string_view> keys = scoring::keys_in(scoring::Table::detectors);
   for (const std::string_view key : keys) {
-    text += fmt::format(" {} |", bench::metric(key).heading());
+    text += fmt::format(" {} |", scoring::metric(key).heading());
     rule += "---|";
   }
   text += '\n' + rule + '\n';
@@ -205,9 +187,9 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
         continue;
       }
       const Interval mean = interval_of(figures);
-      const int decimals = key == bench::kF1 ? 3 : bench::metric(key).scale.decimals;
+      const int decimals = key == scoring::kF1 ? 3 : scoring::metric(key).scale.decimals;
       text += fmt::format(" {:.{}f}", mean.mean, decimals);
-      const bool has_interval = is_of_worlds(by) && !bench::metric(key).is_time();
+      const bool has_interval = is_of_worlds(by) && !scoring::metric(key).is_time();
       if (has_interval) text += half_text(mean.half.value_or(0), decimals);
       while (text.ends_with(' ')) text.pop_back();
       text += " |";
@@ -218,15 +200,15 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
   for (const SuiteResult& other : others) add(other);
   text += fmt::format("\nMeans over {}; {} and {} over the {} with {}.\n",
                       counted(std::ssize(suite.scenarios), "scenario"),
-                      bench::metric(bench::kF1).label, bench::metric("rebel.recall").label,
-                      std::ssize(figures_of_group(suite, kAll, bench::kF1)),
-                      bench::metric(bench::kF1).label);
+                      scoring::metric(scoring::kF1).label, scoring::metric("rebel.recall").label,
+                      std::ssize(figures_of_group(suite, kAll, scoring::kF1)),
+                      scoring::metric(scoring::kF1).label);
   return text;
 }
 
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
-  std::vector<Row> rows = rows_of(suite, others, bench::kF1);
-  const std::string& f1 = bench::metric(bench::kF1).label;
+  std::vector<Row> rows = rows_of(suite, others, scoring::kF1);
+  const std::string& f1 = scoring::metric(scoring::kF1).label;
   if (rows.empty()) return fmt::format("no scenario has an {} by every detector\n", f1);
   const std::vector<Row> times = rows_of(suite, others, kTime);
   std::string lines;
@@ -237,7 +219,7 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   const bool of_worlds = is_of_worlds(suite);
 
   const std::string ahead = fmt::format("{} ahead by", suite.detector);
-  const std::string false_head = bench::metric(kFalse).heading();
+  const std::string false_head = scoring::metric(kFalse).heading();
   std::size_t longest = of_worlds ? std::max(ahead.size(), false_head.size()) : 0;
   for (const Row& row : rows) longest = std::max(longest, row.name.size());
   for (const MeanRow& row : means) longest = std::max(longest, row.name.size());
@@ -252,8 +234,10 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
     table.header(ahead, 1);
     for (const MeanRow& row : means_of(suite, leads(rows))) table.row(row, 3, 1);
     table.header(false_head);
-    for (const MeanRow& row : false_objects(suite, others, rows)) table.row(row, 1);
-    table.line(kIntervalLegend);
+    // In the groups without F1, where nothing moves, and over all.
+    const std::vector<Row> false_objects = rows_of(suite, others, kFalse);
+    for (const MeanRow& row : means_of(suite, false_objects, rows)) table.row(row, 1);
+    lines = kIntervalLegend + lines;
   }
   return table.text() + lines;
 }

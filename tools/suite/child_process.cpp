@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <list>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -45,6 +47,77 @@ std::string trimmed(std::string text) {
   return text.starts_with(kOwnName) ? text.substr(kOwnName.size()) : text;
 }
 
+/// A run of this program as a child process.
+class ChildProcess {
+ public:
+  /// \param its_place in the list of commands.
+  ChildProcess(std::size_t its_place, const std::vector<std::string>& arguments)
+      : place(its_place) {
+    std::vector<std::string> command{kChildName};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    err_ = ::memfd_create("stderr", MFD_CLOEXEC);
+    if (err_ < 0)
+      throw std::system_error(errno, std::generic_category(),
+                              "no process can be started (memfd_create)");
+    try {
+      pid_ = process::start_child(scenario::program().c_str(), command, {.err = err_},
+                                  {.when_parent_ends = SIGTERM});
+    } catch (const std::system_error&) {
+      ::close(err_);
+      throw;
+    }
+  }
+  /// Ends the process if it still runs.
+  ~ChildProcess() {
+    if (!poll()) {
+      ask_to_end();
+      const Clock::time_point deadline = Clock::now() + kPatience;
+      while (!poll() && Clock::now() < deadline) std::this_thread::sleep_for(kPollPeriod);
+      if (!poll()) ::kill(pid_, SIGKILL);
+      while (!poll()) std::this_thread::sleep_for(kPollPeriod);
+    }
+    ::close(err_);
+  }
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// How the process ended; absent while it runs.
+  std::optional<Exit> poll() {
+    int status = 0;
+    if (exit_ || ::waitpid(pid_, &status, WNOHANG) != pid_) return exit_;
+    exit_.emplace();
+    exit_->code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    exit_->signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    exit_->err = read_end(err_);
+    exit_->wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
+    return exit_;
+  }
+
+  void ask_to_end() const {
+    if (!exit_) ::kill(pid_, SIGTERM);
+  }
+
+  const std::size_t place;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  pid_t pid_ = -1;
+  int err_ = -1;  ///< unnamed file (memfd) for its stderr
+  Clock::time_point start_ = Clock::now();
+  std::optional<Exit> exit_;
+};
+
+/// Requests termination of all children before the destructor waits for the first one.
+class Pool : public std::list<ChildProcess> {
+ public:
+  Pool() = default;
+  ~Pool() {
+    for (const ChildProcess& child : *this) child.ask_to_end();
+  }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+};
+
 }  // namespace
 
 std::string complaint_of(const Exit& exit) {
@@ -67,70 +140,6 @@ std::vector<std::string> warnings_of(const Exit& exit) {
   return warnings;
 }
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
-  std::vector<std::string> command{kChildName};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  err_ = ::memfd_create("stderr", MFD_CLOEXEC);
-  if (err_ < 0)
-    throw std::system_error(errno, std::generic_category(),
-                            "no process can be started (memfd_create)");
-  try {
-    pid_ = process::start_child(scenario::program().c_str(), command, {.err = err_},
-                                {.when_parent_ends = SIGTERM});
-  } catch (const std::system_error&) {
-    ::close(err_);
-    throw;
-  }
-}
-
-ChildProcess::~ChildProcess() {
-  if (!poll()) {
-    ask_to_end();
-    const Clock::time_point deadline = Clock::now() + kPatience;
-    while (!poll() && Clock::now() < deadline) std::this_thread::sleep_for(kPollPeriod);
-    if (!poll()) ::kill(pid_, SIGKILL);
-    while (!poll()) std::this_thread::sleep_for(kPollPeriod);
-  }
-  ::close(err_);
-}
-
-std::optional<Exit> ChildProcess::poll() {
-  int status = 0;
-  if (exit_ || ::waitpid(pid_, &status, WNOHANG) != pid_) return exit_;
-  exit_.emplace();
-  exit_->code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-  exit_->signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  exit_->err = read_end(err_);
-  exit_->wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  return exit_;
-}
-
-void ChildProcess::ask_to_end() const {
-  if (!exit_) ::kill(pid_, SIGTERM);
-}
-
-namespace {
-
-struct Running {
-  Running(std::size_t place_, const std::vector<std::string>& arguments)
-      : place(place_), process(arguments) {}
-  std::size_t place;
-  ChildProcess process;
-};
-
-/// Requests termination of all children before the destructor waits for the first one.
-class Pool : public std::list<Running> {
- public:
-  Pool() = default;
-  ~Pool() {
-    for (const Running& child : *this) child.process.ask_to_end();
-  }
-  Pool(const Pool&) = delete;
-  Pool& operator=(const Pool&) = delete;
-};
-
-}  // namespace
-
 void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
              const std::function<void(std::size_t, const Exit&)>& on_exit,
              const std::function<void(const std::vector<std::size_t>&)>& on_tick) {
@@ -142,7 +151,7 @@ void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t 
       ++next;
     }
     for (auto child = pool.begin(); child != pool.end();) {
-      const std::optional<Exit> exit = child->process.poll();
+      const std::optional<Exit> exit = child->poll();
       if (!exit) {
         ++child;
         continue;
@@ -152,7 +161,7 @@ void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t 
       on_exit(place, *exit);
     }
     std::vector<std::size_t> running;
-    for (const Running& child : pool) running.push_back(child.place);
+    for (const ChildProcess& child : pool) running.push_back(child.place);
     on_tick(running);
     std::this_thread::sleep_for(kPollPeriod);
   }

@@ -2,11 +2,7 @@
 /// Runs this program again in child processes.
 #pragma once
 
-#include <sys/types.h>
-
-#include <chrono>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +19,9 @@ struct Exit {
   int signal = 0;   ///< the signal that ended the process, or 0
   std::string err;  ///< its stderr, or the last 64 KiB
   double wall_s = 0;
+
+  /// Whether the process succeeded.
+  bool is_fine() const { return code == 0 && signal == 0; }
 };
 
 /// The error message of a failed process: its signal or exit code and its stderr.
@@ -31,34 +30,13 @@ std::string complaint_of(const Exit& exit);
 /// The lines of stderr that begin with "warning: ", without that prefix.
 std::vector<std::string> warnings_of(const Exit& exit);
 
-/// A run of this program as a child process. Its stdout is discarded. It gets SIGTERM when the
-/// thread that made it ends, even by SIGKILL.
-class ChildProcess {
- public:
-  /// \param arguments without the program's name. \throws std::system_error
-  explicit ChildProcess(const std::vector<std::string>& arguments);
-  /// Ends the process if it still runs: by a termination request, after 10 s by SIGKILL.
-  ~ChildProcess();
-  ChildProcess(const ChildProcess&) = delete;
-  ChildProcess& operator=(const ChildProcess&) = delete;
-
-  /// How the process ended; absent while it runs.
-  std::optional<Exit> poll();
-  /// Requests termination by SIGTERM.
-  void ask_to_end() const;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  pid_t pid_ = -1;
-  int err_ = -1;  ///< unnamed file (memfd) for its stderr
-  Clock::time_point start_ = Clock::now();
-  std::optional<Exit> exit_;
-};
-
-/// Starts all commands in order, `at_once` of them at a time, and waits for them.
+/// Runs this program with each of the commands (without the program's name) as a child process:
+/// starts them in order, `at_once` of them at a time, and waits for them. Their stdout is
+/// discarded. They get SIGTERM when the thread that calls this ends, even by SIGKILL.
 /// \param on_exit called with a command's index when it ends.
 /// \param on_tick called several times a second with the indices of the running commands.
-/// \throws an exception of a callback, after ending the running children.
+/// \throws std::system_error, and an exception of a callback, after ending the running children:
+///   by a termination request, after 10 s by SIGKILL.
 void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
              const std::function<void(std::size_t, const Exit&)>& on_exit,
              const std::function<void(const std::vector<std::size_t>& running)>& on_tick);

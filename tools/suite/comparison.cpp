@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/summary.h"
 
@@ -38,7 +37,7 @@ class Comparer {
   Comparer(const SuiteResult& before, const SuiteResult& after,
            const std::function<bool(std::string_view)>& is_wanted)
       : before_(before), after_(after), by_world_(is_of_worlds(after)) {
-    for (const bench::Metric& metric : bench::metrics()) {
+    for (const scoring::Metric& metric : scoring::metrics()) {
       if (!metric.is_time() && is_wanted(metric.key)) compared_.push_back(&metric);
     }
   }
@@ -56,7 +55,7 @@ class Comparer {
       if (!find(before_, scenario.name)) note("{}: only after", scenario.name);
     }
     for (const std::string& group : groups_of(after_)) {
-      for (const bench::Metric* metric : compared_) compare_group(group, *metric);
+      for (const scoring::Metric* metric : compared_) compare_group(group, *metric);
     }
     judge_means();
     return result_;
@@ -70,7 +69,7 @@ class Comparer {
 
   void compare(const ScenarioResult& before, const ScenarioResult& after) {
     const std::vector<RunPair> pairs = pair_up(before, after);
-    for (const bench::Metric* metric : compared_) compare(before.name, *metric, pairs);
+    for (const scoring::Metric* metric : compared_) compare(before.name, *metric, pairs);
   }
 
   /// Pairs of runs with the same seed, both with figures.
@@ -99,7 +98,7 @@ class Comparer {
     return pairs;
   }
 
-  void compare(const std::string& scenario, const bench::Metric& metric,
+  void compare(const std::string& scenario, const scoring::Metric& metric,
                const std::vector<RunPair>& pairs) {
     std::vector<double> before, after, changes, f1_changes;
     std::vector<std::uint64_t> lost, gained;  // seeds with the figure only before, only after
@@ -112,8 +111,8 @@ class Comparer {
       before.push_back(*was);
       after.push_back(*is);
       changes.push_back(*is - *was);
-      const std::optional<double> f1_was = figure_of(*pair.before, bench::kF1);
-      const std::optional<double> f1_is = figure_of(*pair.after, bench::kF1);
+      const std::optional<double> f1_was = figure_of(*pair.before, scoring::kF1);
+      const std::optional<double> f1_is = figure_of(*pair.after, scoring::kF1);
       if (f1_was && f1_is) f1_changes.push_back(*f1_is - *f1_was);
     }
     if (!lost.empty()) note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
@@ -124,22 +123,22 @@ class Comparer {
 
     const Interval change = interval_of(changes);
     result_.differences.push_back(
-        difference_of(scenario, metric, *bench::mean(before), *bench::mean(after), change));
+        difference_of(scenario, metric, *scoring::mean(before), *scoring::mean(after), change));
     result_.differences.back().pairs = static_cast<int>(changes.size());
     Difference& difference = result_.differences.back();
     if (chance_beyond(difference.change, least_of(difference)) <= 0.05) {
-      difference.verdict = direction_of(difference, bench::mean(f1_changes));
+      difference.verdict = direction_of(difference, scoring::mean(f1_changes));
     } else if (!difference.change.half && difference.weight > 1) {
       difference.verdict = Change::unknown;
     }
     changes_[{scenario, metric.key}] = std::move(changes);
-    if (!f1_changes.empty()) f1_changes_[scenario] = *bench::mean(f1_changes);
-    result_.judged += metric.scale.better != bench::Direction::neutral;
+    if (!f1_changes.empty()) f1_changes_[scenario] = *scoring::mean(f1_changes);
+    result_.judged += metric.scale.better != scoring::Direction::neutral;
   }
 
   /// Worlds are a random sample, so each world's change is a sample. The project's own scenarios
   /// are a fixed set: the noise of their mean comes from their seeds.
-  void compare_group(const std::string& group, const bench::Metric& metric) {
+  void compare_group(const std::string& group, const scoring::Metric& metric) {
     std::vector<double> before, after, by_world;
     std::vector<std::vector<double>> strata;
     for (const Difference& one : result_.differences) {
@@ -152,7 +151,7 @@ class Comparer {
     }
     if (before.empty()) return;
     result_.groups.push_back(
-        difference_of(group, metric, *bench::mean(before), *bench::mean(after),
+        difference_of(group, metric, *scoring::mean(before), *scoring::mean(after),
                       by_world_ ? interval_of(by_world) : interval_of_strata(strata)));
     result_.groups.back().pairs = static_cast<int>(before.size());
   }
@@ -166,7 +165,7 @@ class Comparer {
         if (mean.weight > 1) mean.verdict = Change::unknown;
         continue;
       }
-      if (mean.better == bench::Direction::neutral) continue;
+      if (mean.better == scoring::Direction::neutral) continue;
       judged.push_back(&mean);
       chances.push_back(chance_beyond(mean.change, least_of(mean)));
     }
@@ -178,7 +177,7 @@ class Comparer {
   }
 
   static double least_of(const Difference& difference) {
-    return least_change(bench::metric(difference.metric).scale, difference.before);
+    return least_change(scoring::metric(difference.metric).scale, difference.before);
   }
 
   std::optional<double> f1_change(const std::string& group) const {
@@ -186,7 +185,7 @@ class Comparer {
     for (const auto& [scenario, change] : f1_changes_) {
       if (is_in(*find(after_, scenario), group)) changes.push_back(change);
     }
-    return bench::mean(changes);
+    return scoring::mean(changes);
   }
 
   /// A share of F1 that is lost also falls where F1 itself falls. That is not better.
@@ -198,7 +197,7 @@ class Comparer {
   }
 
   /// Without a verdict.
-  static Difference difference_of(const std::string& name, const bench::Metric& metric,
+  static Difference difference_of(const std::string& name, const scoring::Metric& metric,
                                   double before, double after, const Interval& change) {
     Difference difference{.scenario = name,
                           .metric = metric.key,
@@ -215,7 +214,7 @@ class Comparer {
   const SuiteResult& before_;
   const SuiteResult& after_;
   bool by_world_;
-  std::vector<const bench::Metric*> compared_;
+  std::vector<const scoring::Metric*> compared_;
   std::map<std::pair<std::string, std::string>, std::vector<double>> changes_;
   std::map<std::string, double> f1_changes_;  // means over the seeds, by scenario
   Comparison result_;
@@ -258,23 +257,15 @@ std::string lines_of(const std::vector<const Difference*>& differences, bool of_
                         scenario_width, difference->metric, metric_width,
                         number(difference->before), number(difference->after),
                         signed_number(difference->change.mean), interval_text(difference->change));
-    const bool is_real =
-        difference->verdict == Change::regressed || difference->verdict == Change::improved;
-    text += fmt::format("{}\n", is_real ? fmt::format("  {}", word_of(difference->verdict)) : "");
+    const std::string_view word = difference->real_word();
+    text += fmt::format("{}{}\n", word.empty() ? "" : "  ", word);
   }
   return text;
 }
 
 std::string section(const Comparison& comparison, Change verdict, const std::string& title) {
-  std::vector<const Difference*> found;
-  for (const Difference& difference : comparison.differences) {
-    if (difference.verdict == verdict) found.push_back(&difference);
-  }
+  const std::vector<const Difference*> found = comparison.with(verdict);
   return found.empty() ? "" : fmt::format("{}:\n{}", title, lines_of(found));
-}
-
-int count_of(const std::vector<Difference>& differences, Change verdict) {
-  return static_cast<int>(std::ranges::count(differences, verdict, &Difference::verdict));
 }
 
 }  // namespace
@@ -284,18 +275,26 @@ const char* word_of(Change change) {
   return kWords.at(static_cast<std::size_t>(change));
 }
 
-int Comparison::count(Change verdict) const {
-  return count_of(differences, verdict);
+const char* Difference::real_word() const {
+  return verdict == Change::regressed || verdict == Change::improved ? word_of(verdict) : "";
+}
+
+std::vector<const Difference*> Comparison::with(Change verdict) const {
+  std::vector<const Difference*> found;
+  for (const Difference& difference : differences) {
+    if (difference.verdict == verdict) found.push_back(&difference);
+  }
+  return found;
 }
 
 int Comparison::count_means(Change verdict) const {
-  return count_of(groups, verdict);
+  return static_cast<int>(std::ranges::count(groups, verdict, &Difference::verdict));
 }
 
 std::string Comparison::note() const {
   std::string text;
   const auto singles = std::ranges::count_if(differences, [](const Difference& difference) {
-    return difference.better != bench::Direction::neutral && !difference.change.half;
+    return difference.better != scoring::Direction::neutral && !difference.change.half;
   });
   if (const auto known = judged - static_cast<int>(singles); known > 0) {
     text += fmt::format(
@@ -337,14 +336,13 @@ Comparison compare(const SuiteResult& before, const SuiteResult& after,
 
 std::vector<const Difference*> shown_means(const Comparison& comparison, bool all) {
   const auto largest = std::ranges::max_element(comparison.groups, {}, &Difference::pairs);
-  const std::vector<std::string_view> tabled = bench::keys_in(bench::Table::suite);
+  const std::vector<std::string_view> tabled = scoring::keys_in(scoring::Table::suite);
   std::vector<const Difference*> shown;
   for (const Difference& mean : comparison.groups) {
     const bool is_main = mean.scenario == largest->scenario
                              ? std::ranges::find(tabled, mean.metric) != tabled.end()
-                             : mean.metric == bench::kF1;
-    const bool has_changed = mean.verdict == Change::regressed || mean.verdict == Change::improved;
-    if (all || is_main || has_changed) shown.push_back(&mean);
+                             : mean.metric == scoring::kF1;
+    if (all || is_main || *mean.real_word() != 0) shown.push_back(&mean);
   }
   return shown;
 }

@@ -31,13 +31,16 @@ const char* word_of(Change change);
 struct Difference {
   std::string scenario;  ///< name of the scenario or group
   std::string metric;
-  bench::Direction better = bench::Direction::neutral;
+  scoring::Direction better = scoring::Direction::neutral;
   double before = 0, after = 0;  ///< means over the seeds that both sides have
   Interval change;  ///< of after - before, paired by seed; for a group of worlds by world
   int pairs = 0;    ///< of runs; for a group of scenarios or worlds, >= 1
   Change verdict = Change::none;
   /// (|mean| - half) of the change, over the least change that matters; above 1 if real.
   double weight = 0;
+
+  /// The word of a verdict that is a regression or an improvement; else "".
+  const char* real_word() const;
 };
 
 struct Comparison {
@@ -55,9 +58,9 @@ struct Comparison {
   /// whatever its other figures are.
   std::set<std::string> lost;
 
-  int count(Change verdict) const;        ///< in `differences`
-  int count_means(Change verdict) const;  ///< in `groups`
-  std::string note() const;               ///< the caveats on single scenarios; may be empty
+  std::vector<const Difference*> with(Change verdict) const;  ///< of `differences`
+  int count_means(Change verdict) const;                      ///< in `groups`
+  std::string note() const;  ///< the caveats on single scenarios; may be empty
 
   /// Regressed if a figure is or a run is lost; else unknown, else improved if a figure is; else
   /// none. Absent for a scenario without any compared figure.

@@ -15,6 +15,18 @@ namespace {
 
 constexpr double kConfidence = 0.95;
 
+Interval interval_with(double mean, double error, int degrees_of_freedom) {
+  return {mean, student_t_95(degrees_of_freedom) * error, error, degrees_of_freedom};
+}
+
+/// The square of the standard error of the mean of a sample of at least two values.
+double squared_error(const std::vector<double>& values, double mean) {
+  double squares = 0;
+  for (const double value : values) squares += std::pow(value - mean, 2);
+  const auto count = static_cast<double>(values.size());
+  return squares / (count - 1) / count;
+}
+
 }  // namespace
 
 double student_t_beyond(double t, int degrees_of_freedom) {
@@ -39,24 +51,8 @@ double student_t_95(int degrees_of_freedom) {
   return (low + high) / 2;
 }
 
-namespace {
-
-Interval interval_with(double mean, double error, int degrees_of_freedom) {
-  return {mean, student_t_95(degrees_of_freedom) * error, error, degrees_of_freedom};
-}
-
-/// The square of the standard error of the mean of a sample of at least two values.
-double squared_error(const std::vector<double>& values, double mean) {
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - mean, 2);
-  const auto count = static_cast<double>(values.size());
-  return squares / (count - 1) / count;
-}
-
-}  // namespace
-
 Interval interval_of(const std::vector<double>& values) {
-  const double mean = bench::mean(values).value();
+  const double mean = scoring::mean(values).value();
   if (values.size() < 2) return {.mean = mean, .half = std::nullopt};
   return interval_with(mean, std::sqrt(squared_error(values, mean)),
                        static_cast<int>(values.size()) - 1);
@@ -66,7 +62,7 @@ Interval interval_of_strata(const std::vector<std::vector<double>>& strata) {
   std::vector<double> means;
   bool has_noise = true;
   for (const std::vector<double>& values : strata) {
-    means.push_back(bench::mean(values).value());
+    means.push_back(scoring::mean(values).value());
     has_noise &= values.size() >= 2;
   }
   if (!has_noise) return interval_of(means);
@@ -80,7 +76,7 @@ Interval interval_of_strata(const std::vector<std::vector<double>>& strata) {
     degrees += own;
   }
   if (weighed > 0) degrees = std::max(1, static_cast<int>(sum * sum / weighed));
-  return interval_with(bench::mean(means).value(),
+  return interval_with(scoring::mean(means).value(),
                        std::sqrt(sum) / static_cast<double>(strata.size()), degrees);
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// numbered.
 class Names {
  public:
-  std::string next(const bench::JudgedCriterion& criterion) {
+  std::string next(const scoring::JudgedCriterion& criterion) {
     std::string name = criterion.metric;
     if (criterion.min) name += " min";
     if (criterion.max) name += " max";
@@ -74,7 +74,7 @@ class Lister {
     }
     one.time_s /= static_cast<double>(run.criteria.size());
     Names names;
-    for (const bench::JudgedCriterion& criterion : run.criteria) {
+    for (const scoring::JudgedCriterion& criterion : run.criteria) {
       if (criterion.over != "seed") continue;
       one.name = fmt::format("{}{}, seed {}", by, names.next(criterion), run.seed);
       add(one, criterion);
@@ -92,7 +92,7 @@ class Lister {
     }
     if (!first) return;
     Names names;
-    for (const bench::JudgedCriterion& criterion : first->criteria) {
+    for (const scoring::JudgedCriterion& criterion : first->criteria) {
       if (criterion.over == "seed") continue;
       add({.scenario = scenario.name,
            .file = scenario.file,
@@ -103,7 +103,7 @@ class Lister {
     }
   }
 
-  void add(Judgement one, const bench::JudgedCriterion& criterion) {
+  void add(Judgement one, const scoring::JudgedCriterion& criterion) {
     one.judged = criterion.met ? Judged::met : criterion.required ? Judged::failed : Judged::missed;
     one.message = criterion.message;
     one.is_of_criterion = true;

@@ -71,7 +71,7 @@ void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
 
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
-  bench::write_file(file, printer.CStr());
+  files::write_file(file, printer.CStr());
 }
 
 }  // namespace lcs::suite

@@ -45,32 +45,26 @@ std::string cell(std::string text) {
 
 struct Grown {
   std::string run;  ///< such as "rain seed 2"
-  bench::Event after;
-  std::optional<bench::Event>
-      before;  ///< of the same family and object, in some of the same frames
+  scoring::ScoredEvent after;
+  /// Of the same family and object, in some of the same frames.
+  std::optional<scoring::ScoredEvent> before;
 };
 
 /// Corners, circles or frames, which are compared only within a family.
-int cost_of(const bench::Event& event) {
-  switch (family_of(event.kind)) {
-    case bench::EventFamily::rebels:
-      return event.corners;
-    case bench::EventFamily::circles:
-      return event.circles;
-    case bench::EventFamily::squares:
-      return event.frames;
-  }
-  return 0;
+int cost_of(const scoring::ScoredEvent& event) {
+  const int costs[] = {event.corners, event.circles, event.frames};
+  return costs[static_cast<std::size_t>(family_of(event.kind))];
 }
 
-std::vector<bench::Event> events_in(const SuiteInFolder& suite, const RunResult& run) {
+std::vector<scoring::ScoredEvent> events_in(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.events_of(run);
-  return file.empty() ? std::vector<bench::Event>() : bench::read_events(file);
+  return file.empty() ? std::vector<scoring::ScoredEvent>() : scoring::read_events(file);
 }
 
-const bench::Event* former(const bench::Event& event, const std::vector<bench::Event>& before) {
-  const bench::Event* worst = nullptr;
-  for (const bench::Event& other : before) {
+const scoring::ScoredEvent* former(const scoring::ScoredEvent& event,
+                                   const std::vector<scoring::ScoredEvent>& before) {
+  const scoring::ScoredEvent* worst = nullptr;
+  for (const scoring::ScoredEvent& other : before) {
     if (family_of(other.kind) != family_of(event.kind) || other.object != event.object ||
         other.first_frame > event.last_frame || other.last_frame < event.first_frame) {
       continue;
@@ -89,10 +83,10 @@ std::optional<Grown> most_grown(const SuiteInFolder& before, const SuiteInFolder
     for (const RunResult& run : scenario.runs) {
       const RunResult* same = earlier ? find(*earlier, run.seed) : nullptr;
       if (same == nullptr || same->metrics.empty()) continue;
-      const std::vector<bench::Event> then = events_in(before, *same);
-      for (bench::Event& event : events_in(after, run)) {
-        const bench::Event* was = former(event, then);
-        const std::pair growth{family_of(event.kind) == bench::EventFamily::rebels,
+      const std::vector<scoring::ScoredEvent> then = events_in(before, *same);
+      for (scoring::ScoredEvent& event : events_in(after, run)) {
+        const scoring::ScoredEvent* was = former(event, then);
+        const std::pair growth{family_of(event.kind) == scoring::EventFamily::rebels,
                                cost_of(event) - (was ? cost_of(*was) : 0)};
         if (growth.second <= 0 || growth <= most_growth) continue;
         most_growth = growth;
@@ -105,9 +99,9 @@ std::optional<Grown> most_grown(const SuiteInFolder& before, const SuiteInFolder
 }
 
 /// The view with a picture that is nearest to a frame; null without one.
-const bench::EventView* view_near(const bench::Event& event, int frame) {
-  const bench::EventView* nearest = nullptr;
-  for (const bench::EventView& view : event.views) {
+const scoring::EventView* view_near(const scoring::ScoredEvent& event, int frame) {
+  const scoring::EventView* nearest = nullptr;
+  for (const scoring::EventView& view : event.views) {
     if (view.jpeg_base64.empty()) continue;
     if (nearest == nullptr || std::abs(view.frame - frame) < std::abs(nearest->frame - frame)) {
       nearest = &view;
@@ -116,26 +110,26 @@ const bench::EventView* view_near(const bench::Event& event, int frame) {
   return nearest;
 }
 
-std::string unit_of(const bench::Event& event) {
+std::string unit_of(const scoring::ScoredEvent& event) {
   constexpr const char* kUnits[] = {"corners", "circles", "frames"};
   return kUnits[static_cast<std::size_t>(family_of(event.kind))];
 }
 
 /// One side's picture, as a cell of the table.
-std::string picture(const fs::path& folder, const std::string& name, const bench::Event* event,
-                    int frame, const std::string& pictures_at) {
+std::string picture(const fs::path& folder, const std::string& name,
+                    const scoring::ScoredEvent* event, int frame, const std::string& pictures_at) {
   if (event == nullptr) return "no such event in these frames";
-  const bench::EventView* view = view_near(*event, frame);
+  const scoring::EventView* view = view_near(*event, frame);
   if (view == nullptr) return "the suite keeps no pictures";
-  bench::write_file(folder / name, bytes_of(view->jpeg_base64));
+  files::write_file(folder / name, bytes_of(view->jpeg_base64));
   return fmt::format("![frame {}]({}{}{})", view->frame, pictures_at,
                      pictures_at.empty() || pictures_at.ends_with('/') ? "" : "/", name);
 }
 
 std::string event_text(const fs::path& folder, const Grown& grown, const std::string& pictures_at) {
-  const bench::Event& event = grown.after;
+  const scoring::ScoredEvent& event = grown.after;
   const int middle = (event.first_frame + event.last_frame) / 2;
-  const bench::EventView* shown = view_near(event, middle);
+  const scoring::EventView* shown = view_near(event, middle);
   const int frame = shown ? shown->frame : middle;
   const int was = grown.before ? cost_of(*grown.before) : 0;
   const std::string object =
@@ -159,18 +153,18 @@ std::string means_table(const Comparison& comparison) {
       "\n| mean over | figure | before | after | change, 95 % interval | "
       "|\n|---|---|---|---|---|---|\n";
   for (const Difference* mean : shown_means(comparison, false)) {
-    const bool is_real = mean->verdict == Change::regressed || mean->verdict == Change::improved;
+    const std::string_view word = mean->real_word();
     const std::string half =
         mean->change.half ? fmt::format(" ± {:.3g}", *mean->change.half) : ", noise unknown";
-    text += fmt::format("| {} ({}) | {} | {:.3g} | {:.3g} | {:+.3g}{} | {} |\n",
-                        cell(mean->scenario), mean->pairs, bench::metric(mean->metric).heading(),
-                        mean->before, mean->after, mean->change.mean, half,
-                        is_real ? fmt::format("**{}**", word_of(mean->verdict)) : "");
+    text +=
+        fmt::format("| {} ({}) | {} | {:.3g} | {:.3g} | {:+.3g}{} | {} |\n", cell(mean->scenario),
+                    mean->pairs, scoring::metric(mean->metric).heading(), mean->before, mean->after,
+                    mean->change.mean, half, word.empty() ? "" : fmt::format("**{}**", word));
   }
   return text;
 }
 
-std::string remarks_text(const Verdict& verdict) {
+std::string remarks_text(const SuiteVerdict& verdict) {
   if (verdict.remarks.empty()) return "";
   std::string text = "\n<details><summary>Scenarios, worst first</summary>\n\n";
   for (std::size_t i = 0; i < std::min(kMostRemarks, verdict.remarks.size()); ++i) {
@@ -188,14 +182,14 @@ std::string remarks_text(const Verdict& verdict) {
 
 void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
                          const SuiteInFolder& after, const Comparison& comparison,
-                         const Verdict& verdict, const std::string& pictures_at) {
+                         const SuiteVerdict& verdict, const std::string& pictures_at) {
   std::string text =
       fmt::format("### {} {}\n\n{}\n", comparison.has_regressed() ? "🔴" : "🟢",
                   comparison.has_regressed() ? "Regressed" : "Not regressed", cell(verdict.line));
   text += means_table(comparison);
   if (const auto grown = most_grown(before, after)) text += event_text(folder, *grown, pictures_at);
   text += remarks_text(verdict);
-  bench::write_file(folder / kSummaryFile, text);
+  files::write_file(folder / kSummaryFile, text);
 }
 
 }  // namespace lcs::suite

@@ -21,6 +21,6 @@ inline constexpr const char *kSummaryFile = "summary.md", *kBeforePicture = "bef
 /// \throws std::runtime_error for a file of events that cannot be read. \throws OutputError
 void write_merge_request(const std::filesystem::path& folder, const SuiteInFolder& before,
                          const SuiteInFolder& after, const Comparison& comparison,
-                         const Verdict& verdict, const std::string& pictures_at);
+                         const SuiteVerdict& verdict, const std::string& pictures_at);
 
 }  // namespace lcs::suite

@@ -100,12 +100,7 @@ std::string name_of(const fs::path& file, const scenario::SweepPoint& point) {
 }
 
 PlannedScenario broken(const fs::path& file, const std::string& name, const std::string& error) {
-  PlannedScenario planned;
-  planned.name = name;
-  planned.file = file;
-  planned.error = error;
-  planned.seeds = {0};
-  return planned;
+  return {.name = name, .file = file, .error = error, .seeds = {0}};
 }
 
 PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& point,
@@ -118,7 +113,7 @@ PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& poi
   for (const auto& [key, value] : point.settings) planned.sets.push_back(key + "=" + value);
   try {
     planned.scenario = scenario::load(file, {.sets = planned.sets, .seed = {}});
-    bench::require_known_metrics(planned.scenario->criteria);
+    scoring::require_known_metrics(planned.scenario->criteria);
     // a recording is the same for every seed
     const int seeds = planned.scenario->recording ? 1 : options.seeds;
     for (int i = 0; i < seeds; ++i) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
 
@@ -20,18 +19,18 @@ struct PlanOptions {
   /// Only scenarios of this group; "all": any. Absent: any, but `short` for the project's own
   /// folder.
   std::optional<std::string> group;
-  std::string filter;             ///< regular expression that a part of the name matches; "": any
+  std::string filter = {};        ///< regular expression that a part of the name matches; "": any
   std::vector<std::string> sets;  ///< "key=value", for all scenarios
   int seeds = 3;                  ///< >= 1
 };
 
 /// One scenario, at one point of its sweep.
 struct PlannedScenario {
-  std::string name;               ///< unique; usable as a folder name
-  std::filesystem::path file;     ///< the path for the child process
-  std::vector<std::string> sets;  ///< the sets of `PlanOptions`, then the point's
-  std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, if any
-  std::optional<scenario::Scenario> scenario;              ///< absent: `error` has the reason
+  std::string name;                    ///< unique; usable as a folder name
+  std::filesystem::path file;          ///< the path for the child process
+  std::vector<std::string> sets = {};  ///< the sets of `PlanOptions`, then the point's
+  std::vector<std::pair<std::string, std::string>> point = {};  ///< swept keys and values, if any
+  std::optional<scenario::Scenario> scenario = {};              ///< absent: `error` has the reason
   std::string error;
   std::vector<std::uint64_t> seeds;  ///< a single 0 for an error
 };

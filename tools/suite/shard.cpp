@@ -14,8 +14,8 @@ namespace lcs::suite {
 Shard shard_of(const std::string& text) {
   const std::size_t slash = text.find('/');
   const std::string_view all = text;
-  const auto part = bench::number_in<int>(all.substr(0, slash));
-  const auto parts = bench::number_in<int>(slash == text.npos ? "" : all.substr(slash + 1));
+  const auto part = files::number_in<int>(all.substr(0, slash));
+  const auto parts = files::number_in<int>(slash == text.npos ? "" : all.substr(slash + 1));
   if (!part || !parts || *part < 1 || *part > *parts) {
     throw std::invalid_argument(
         fmt::format("--shard is '{}'; it takes a part of all, from 1/N to N/N, as 3/16", text));

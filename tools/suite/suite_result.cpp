@@ -27,7 +27,7 @@ Json to_json(std::optional<double> figure) {
   return figure && std::isfinite(*figure) ? Json(*figure) : Json(nullptr);
 }
 
-Json to_json(const bench::JudgedCriterion& criterion) {
+Json to_json(const scoring::JudgedCriterion& criterion) {
   return {{"metric", criterion.metric},     {"min", to_json(criterion.min)},
           {"max", to_json(criterion.max)},  {"value", to_json(criterion.value)},
           {"required", criterion.required}, {"met", criterion.met},
@@ -39,10 +39,10 @@ Json to_json(const RunResult& run) {
   Json metrics = Json::object();
   for (const auto& [name, figure] : run.metrics) metrics[name] = to_json(figure);
   Json criteria = Json::array();
-  for (const bench::JudgedCriterion& criterion : run.criteria)
+  for (const scoring::JudgedCriterion& criterion : run.criteria)
     criteria.push_back(to_json(criterion));
   Json warnings = Json::object();
-  for (const bench::Warned& warned : run.warnings) {
+  for (const recording::Warned& warned : run.warnings) {
     warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
   }
   return {{"seed", run.seed},
@@ -57,15 +57,13 @@ Json to_json(const RunResult& run) {
 }
 
 Json to_json(const ScenarioResult& scenario) {
-  Json point = Json::array();  // a list of pairs, because a key may occur twice
-  for (const auto& [key, value] : scenario.point) point.push_back(Json::array({key, value}));
   Json runs = Json::array();
   for (const RunResult& run : scenario.runs) runs.push_back(to_json(run));
   Json json{{"name", scenario.name},
             {"purpose", scenario.purpose},
             {"file", scenario.file.generic_string()},
             {"groups", scenario.groups},
-            {"point", point},
+            {"point", scenario.point},  // a list of pairs, because a key may occur twice
             {"runs", runs}};
   if (scenario.drawn) {
     json["drawn"] = {{"family", scenario.drawn->family},
@@ -83,12 +81,12 @@ Json to_json(const PartOf& part) {
 
 // ---- Reading
 
-using Node = bench::JsonNode;
+using Node = files::JsonNode;
 
 /// A text that names a folder or file of the suite.
 std::string name_of(const Node& node) {
   std::string name = node.text();
-  node.require(bench::is_inner(name) && name.find('/') == name.npos, "a name without '/'");
+  node.require(files::is_inner(name) && name.find('/') == name.npos, "a name without '/'");
   return name;
 }
 
@@ -104,7 +102,7 @@ std::pair<std::string, std::string> pair_of(const Node& node) {
   return {both[0], both[1]};
 }
 
-bench::JudgedCriterion criterion_of(const Node& node) {
+scoring::JudgedCriterion criterion_of(const Node& node) {
   return {.metric = node["metric"].text(),
           .min = node["min"].figure(),
           .max = node["max"].figure(),
@@ -123,7 +121,7 @@ RunResult run_of(const Node& node) {
   if (node.has("command")) run.command = node["command"].text();
   run.error = node["error"].text();
   run.folder = node["folder"].text();
-  node["folder"].require(run.folder.empty() || bench::is_inner(run.folder),
+  node["folder"].require(run.folder.empty() || files::is_inner(run.folder),
                          "a folder inside of the suite's");
   run.wall_s = node["wall_s"].figure().value_or(0);
   node["criteria"].each([&](const Node& item) { run.criteria.push_back(criterion_of(item)); });
@@ -216,7 +214,7 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   if (suite.part_of) json["part_of"] = to_json(*suite.part_of);
   json["scenarios"] = std::move(scenarios);
   // A child's stderr may be invalid UTF-8, which JSON forbids.
-  bench::write_file(file, bench::json_text(json, 1) + '\n');
+  files::write_file(file, files::json_text(json, 1) + '\n');
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
@@ -227,11 +225,11 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 SuiteResult read_suite(const std::filesystem::path& path) {
   constexpr input::FileKind kSuiteDocument{
-      bench::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};
+      files::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
   if (is_folder) input::note_input(path);
-  return bench::read_json(is_folder ? path / kSuiteFile : path, kSuiteDocument, suite_of);
+  return files::read_json(is_folder ? path / kSuiteFile : path, kSuiteDocument, suite_of);
 }
 
 }  // namespace lcs::suite

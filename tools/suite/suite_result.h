@@ -31,12 +31,12 @@ const char* word_of(Outcome outcome);
 struct RunResult {
   std::uint64_t seed = 0;
   Outcome outcome = Outcome::error;
-  std::string command;     ///< shell command that repeats the run
-  std::string error;       ///< the command's error message
-  bench::Metrics metrics;  ///< empty for an error
-  std::vector<bench::JudgedCriterion> criteria;
-  std::vector<bench::Warned> warnings;  ///< with a count above 0
-  std::filesystem::path folder;         ///< the run's folder, relative to the suite's
+  std::string command;       ///< shell command that repeats the run
+  std::string error = {};    ///< the command's error message
+  scoring::Metrics metrics;  ///< empty for an error
+  std::vector<scoring::JudgedCriterion> criteria = {};
+  std::vector<recording::Warned> warnings;  ///< with a count above 0
+  std::filesystem::path folder;             ///< the run's folder, relative to the suite's
   double wall_s = 0;
 };
 
@@ -53,18 +53,18 @@ struct ScenarioResult {
   std::string purpose;
   std::filesystem::path file;
   std::vector<std::string> groups;
-  std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, as given
-  std::vector<RunResult> runs;                             ///< one per seed, as ordered
-  std::optional<Drawn> drawn = {};                         ///< only for a world
+  std::vector<std::pair<std::string, std::string>> point = {};  ///< swept keys and values, as given
+  std::vector<RunResult> runs;                                  ///< one per seed, as ordered
+  std::optional<Drawn> drawn = {};                              ///< only for a world
 };
 
 /// Runs by the names of their scenarios, in order, with their seeds.
-using Runs = std::vector<std::pair<std::string, std::vector<std::uint64_t>>>;
+using SuiteRuns = std::vector<std::pair<std::string, std::vector<std::uint64_t>>>;
 
 /// A part of a suite, made by `lcs suite --shard`.
 struct PartOf {
   Shard shard;
-  Runs whole;  ///< of the whole suite
+  SuiteRuns whole;  ///< of the whole suite
 };
 
 struct SuiteResult {
@@ -77,7 +77,7 @@ struct SuiteResult {
   std::vector<std::string> beside = {};  ///< the detectors in beside/, in order
   std::string split = {};                ///< of its worlds; "": no worlds
   std::optional<PartOf> part_of = {};    ///< absent for a whole suite
-  std::vector<ScenarioResult> scenarios;
+  std::vector<ScenarioResult> scenarios = {};
 };
 
 /// \throws bench::OutputError

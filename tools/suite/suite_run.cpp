@@ -36,12 +36,7 @@ std::string quoted(const std::string& word) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,@%+-";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string text = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      text += R"('\'')";
-    else
-      text += c;
-  }
+  for (const char c : word) text += c == '\'' ? R"('\'')" : std::string(1, c);
   return text + "'";
 }
 
@@ -56,12 +51,11 @@ std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
       if (plan[i].scenario) jobs.push_back({i, k, seconds[next]});
     }
   }
-  std::stable_sort(jobs.begin(), jobs.end(),
-                   [](const Job& a, const Job& b) { return a.seconds > b.seconds; });
+  std::ranges::stable_sort(jobs, std::greater(), &Job::seconds);
   return jobs;
 }
 
-ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher& watcher,
+ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteDetector& detector,
                               const SuiteRunOptions& options) {
   ScenarioResult result;
   result.name = planned.name;
@@ -74,23 +68,23 @@ ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher
   for (const std::uint64_t seed : planned.seeds) {
     RunResult& run = result.runs.emplace_back();
     run.seed = seed;
-    run.command = shell_line(options.run_of(planned, seed, watcher));
+    run.command = shell_line(options.run_of(planned, seed, detector));
     run.error = planned.error;
   }
   return result;
 }
 
-/// Whether an earlier process has finished a run, for all watchers.
+/// Whether an earlier process has finished a run, for all detectors.
 /// \throws std::runtime_error if its files are no longer as they were written, or those that it has
 ///   read are no longer as they were then.
 bool is_whole(const PlannedScenario& planned, std::uint64_t seed,
-              const std::vector<SuiteWatcher>& watchers) {
+              const std::vector<SuiteDetector>& detectors) {
   std::string what;
-  for (const SuiteWatcher& watcher : watchers) {
-    const fs::path folder = watcher.folder / folder_of(planned, seed);
+  for (const SuiteDetector& detector : detectors) {
+    const fs::path folder = detector.folder / folder_of(planned, seed);
     if (!fs::exists(folder)) return false;
-    what = bench::first_difference(folder);
-    if (what.empty()) what = bench::changed_since(bench::read_how_made(folder));
+    what = files::first_difference(folder);
+    if (what.empty()) what = files::changed_since(files::read_how_made(folder));
     if (what.empty()) continue;
     throw std::runtime_error(fmt::format(
         "{}: {}, so that this finished run no longer fits; remove its folder to have it made "
@@ -102,49 +96,48 @@ bool is_whole(const PlannedScenario& planned, std::uint64_t seed,
 
 /// The duration of an earlier run, as its run.json states it; 0 if it has none.
 double seconds_of(const fs::path& folder) {
-  constexpr input::FileKind kKind{bench::kMostJsonBytes, "run the suite again"};
-  double seconds = 0;
+  constexpr input::FileKind kKind{files::kMostJsonBytes, "run the suite again"};
   try {
-    bench::read_json(folder / bench::kHowMadeFile, kKind, [&](const bench::JsonNode& node) {
-      seconds = node["wall_s"].figure().value_or(0);
+    return files::read_json(folder / files::kHowMadeFile, kKind, [](const files::JsonNode& node) {
+      return node["wall_s"].figure().value_or(0);
     });
   } catch (const std::exception&) {
+    return 0;
   }
-  return seconds;
 }
 
 /// Takes the figures of a run from its folder. \param exit absent for a run of an earlier process.
 /// A file of a finished run that cannot be read ends the suite, which goes on when it can be.
 /// \param provenance of the suite, to which the files are added that the run has read.
 void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
-                const SuiteWatcher& watcher, RunResult& run, bench::Provenance& provenance) {
-  const fs::path folder = watcher.folder / folder_of(planned, run.seed);
+                const SuiteDetector& detector, RunResult& run, files::Provenance& provenance) {
+  const fs::path folder = detector.folder / folder_of(planned, run.seed);
   run.wall_s = exit ? exit->wall_s : seconds_of(folder);
   if (exit && (exit->signal != 0 || exit->code < 0 || exit->code > 1)) {
     run.error = complaint_of(*exit);
-    if (exit->code == kFaultyDisk) throw bench::OutputError(run.error);
-    bench::remove_abandoned(folder, bench::result_files());
+    if (exit->code == kFaultyDisk) throw files::OutputError(run.error);
+    files::remove_abandoned(folder, output::result_files());
     return;
   }
   run.folder = folder_of(planned, run.seed);
-  bench::remove_abandoned(folder, bench::result_files());  // which it could not remove by itself
-  provenance.add_read(bench::read_how_made(folder),
+  files::remove_abandoned(folder, output::result_files());  // which it could not remove by itself
+  provenance.add_read(files::read_how_made(folder),
                       fmt::format("{} seed {}", planned.name, run.seed));
-  run.metrics = bench::read_metrics(folder / bench::kMetricsFile);
-  const fs::path warnings = folder / bench::kWarningsFile;
-  if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
-  std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
+  run.metrics = scoring::read_metrics(folder / scoring::kMetricsFile);
+  const fs::path warnings = folder / recording::kWarningsFile;
+  if (fs::exists(warnings)) run.warnings = recording::read_warnings(warnings);
+  std::erase_if(run.warnings, [](const recording::Warned& w) { return w.count.value_or(0) == 0; });
   run.outcome = Outcome::passed;
-  judge_run(bench::asked_of(watcher.detector, watcher.is_own, planned.scenario->criteria), run);
+  judge_run(scoring::asked_of(detector.detector, detector.is_own, planned.scenario->criteria), run);
 }
 
 }  // namespace
 
-bench::ResultNames suite_files() {
-  bench::ResultNames names{
+files::ResultNames suite_files() {
+  files::ResultNames names{
       kSuiteFile,     kJunitFile,          "report.html", "worlds.html",
-      "worlds/*.jpg", bench::kHowMadeFile, kStandingFile, std::string("beside/*/") + kSuiteFile};
-  for (const std::string& file : bench::result_files()) {
+      "worlds/*.jpg", files::kHowMadeFile, kStandingFile, std::string("beside/*/") + kSuiteFile};
+  for (const std::string& file : output::result_files()) {
     for (const char* suite : {"", "beside/*/"}) {
       names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
     }
@@ -197,8 +190,8 @@ std::string shell_line(const std::vector<std::string>& arguments) {
 }
 
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run) {
-  run.criteria = bench::judge(criteria, run.metrics);
-  for (const bench::JudgedCriterion& one : run.criteria) {
+  run.criteria = scoring::judge(criteria, run.metrics);
+  for (const scoring::JudgedCriterion& one : run.criteria) {
     if (one.required && !one.met) run.outcome = Outcome::failed;
   }
 }
@@ -206,13 +199,13 @@ void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run)
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options) {
   std::vector<SuiteResult> suites;
-  for (const SuiteWatcher& watcher : options.watchers) {
+  for (const SuiteDetector& detector : options.detectors) {
     SuiteResult& suite = suites.emplace_back();
-    suite.detector = watcher.detector;
+    suite.detector = detector.detector;
     suite.sets = options.sets;
     suite.version = options.version;
     for (const PlannedScenario& planned : plan) {
-      suite.scenarios.push_back(begin_scenario(planned, watcher, options));
+      suite.scenarios.push_back(begin_scenario(planned, detector, options));
     }
   }
 
@@ -220,9 +213,9 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   const std::size_t total = jobs.size();
   std::erase_if(jobs, [&](const Job& job) {
     const PlannedScenario& planned = plan[job.scenario];
-    if (!is_whole(planned, planned.seeds[job.run], options.watchers)) return false;
+    if (!is_whole(planned, planned.seeds[job.run], options.detectors)) return false;
     for (std::size_t i = 0; i < suites.size(); ++i) {
-      finish_run(planned, std::nullopt, options.watchers[i],
+      finish_run(planned, std::nullopt, options.detectors[i],
                  suites[i].scenarios[job.scenario].runs[job.run], options.provenance);
     }
     return true;
@@ -232,10 +225,10 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   for (const Job& job : jobs) {
     const PlannedScenario& planned = plan[job.scenario];
     // Not in the children, because a child may remove an empty folder that another one needs.
-    for (const SuiteWatcher& watcher : options.watchers) {
-      fs::create_directories(watcher.folder / "runs" / planned.name);
+    for (const SuiteDetector& detector : options.detectors) {
+      fs::create_directories(detector.folder / "runs" / planned.name);
     }
-    commands.push_back(options.child_of(planned, planned.seeds[job.run], options.watchers));
+    commands.push_back(options.child_of(planned, planned.seeds[job.run], options.detectors));
   }
 
   SuiteProgress progress;
@@ -249,11 +242,11 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     const Job& job = jobs[place];
     const PlannedScenario& planned = plan[job.scenario];
     const fs::path result = folder_of(planned, planned.seeds[job.run]);
-    if (fs::exists(options.watchers.front().folder / result)) options.on_result();
+    if (fs::exists(options.detectors.front().folder / result)) options.on_result();
     std::vector<const RunResult*> finished;
     for (std::size_t i = 0; i < suites.size(); ++i) {
       RunResult& run = suites[i].scenarios[job.scenario].runs[job.run];
-      finish_run(plan[job.scenario], exit, options.watchers[i], run, options.provenance);
+      finish_run(plan[job.scenario], exit, options.detectors[i], run, options.provenance);
       finished.push_back(&run);
     }
     done_seconds += job.seconds;
@@ -276,9 +269,9 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
 
   for (SuiteResult& suite : suites) std::ranges::for_each(suite.scenarios, judge_over_seeds);
   std::error_code ignored;  // removes folders of scenarios without any result
-  for (const SuiteWatcher& watcher : options.watchers) {
+  for (const SuiteDetector& detector : options.detectors) {
     for (const PlannedScenario& planned : plan) {
-      fs::remove(watcher.folder / "runs" / planned.name, ignored);
+      fs::remove(detector.folder / "runs" / planned.name, ignored);
     }
   }
   return suites;

@@ -11,7 +11,6 @@
 
 #include "tools/files/output.h"
 #include "tools/files/provenance.h"
-#include "tools/output/result.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
 
@@ -19,7 +18,7 @@ namespace lcs::suite {
 
 /// All files that a suite's folder may hold: its own files, and in beside/NAME/ the files of other
 /// detectors.
-bench::ResultNames suite_files();
+files::ResultNames suite_files();
 
 /// Progress of the runs.
 struct SuiteProgress {
@@ -29,7 +28,7 @@ struct SuiteProgress {
 };
 
 /// A detector and the folder of its results.
-struct SuiteWatcher {
+struct SuiteDetector {
   std::string detector;
   std::filesystem::path folder;  ///< gets `runs/<name>/seed-<n>/`
   bool is_own = true;            ///< the suite's detector; criteria without a detector apply to it
@@ -38,25 +37,25 @@ struct SuiteWatcher {
 struct SuiteRunOptions {
   /// At least one. All process the same frames, which are made once. Only the first one writes
   /// pictures and events.
-  std::vector<SuiteWatcher> watchers;
-  /// The arguments of `lcs` for a run with one of the watchers, without its outputs.
+  std::vector<SuiteDetector> detectors;
+  /// The arguments of `lcs` for a run with one of the detectors, without its outputs.
   std::function<std::vector<std::string>(const PlannedScenario&, std::uint64_t seed,
-                                         const SuiteWatcher&)>
+                                         const SuiteDetector&)>
       run_of;
-  /// The arguments of `lcs` for the child that makes a run for all watchers.
+  /// The arguments of `lcs` for the child that makes a run for all detectors.
   std::function<std::vector<std::string>(const PlannedScenario&, std::uint64_t seed,
-                                         std::span<const SuiteWatcher>)>
+                                         std::span<const SuiteDetector>)>
       child_of;
   std::vector<std::string> sets;
   std::string version;
   std::size_t jobs = 1;               ///< concurrent runs, >= 1
   std::optional<SuiteResult> former;  ///< earlier result, to estimate durations
-  bench::Provenance& provenance;      ///< of the suite; gets the files that the runs have read
+  files::Provenance& provenance;      ///< of the suite; gets the files that the runs have read
   /// Called with the number of runs that an earlier process has finished.
   std::function<void(std::size_t)> on_begin;
   /// Called when a run of this process has left its result, before that is read.
   std::function<void()> on_result;
-  /// Called when a run of this process ends, with its result for each watcher.
+  /// Called when a run of this process ends, with its result for each detector.
   std::function<void(const SuiteProgress&, const std::string& scenario,
                      std::span<const RunResult* const>)>
       on_run;
@@ -73,7 +72,7 @@ std::optional<double> former_seconds(const SuiteResult& former, const std::strin
 std::vector<double> estimated_seconds(const std::vector<PlannedScenario>& plan,
                                       const std::optional<SuiteResult>& former);
 
-/// The folder of a run in a watcher's folder: runs/NAME/seed-N.
+/// The folder of a run in a detector's folder: runs/NAME/seed-N.
 std::filesystem::path folder_of(const PlannedScenario& planned, std::uint64_t seed);
 
 /// The file of a run's detections: NAME/seed-N.csv.
@@ -86,7 +85,7 @@ std::string shell_line(const std::vector<std::string>& arguments);
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run);
 
 /// Runs all planned scenarios. Runs whose results are there already are not repeated.
-/// \return a result for each watcher. \throws std::runtime_error if such a run no longer fits, or
+/// \return a result for each detector. \throws std::runtime_error if such a run no longer fits, or
 ///   if two runs have read a file in different states. bench::OutputError if the result of a run
 ///   cannot be written.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,

@@ -16,14 +16,14 @@ namespace {
 constexpr std::size_t kWidth = 120;
 
 struct Column {
-  const bench::Metric& metric;
+  const scoring::Metric& metric;
   int width = 4;  ///< of the mean, in characters
 };
 const std::vector<Column>& columns() {
   static const std::vector<Column> all = [] {
     std::vector<Column> made;
-    for (const std::string_view key : bench::keys_in(bench::Table::suite)) {
-      made.push_back({bench::metric(key)});
+    for (const std::string_view key : scoring::keys_in(scoring::Table::suite)) {
+      made.push_back({scoring::metric(key)});
       if (key == "rebel.false_objects_per_100_frames") made.back().width = 5;
     }
     return made;
@@ -36,15 +36,11 @@ constexpr int kSpreadWidth = 4;
 
 class TableText {
  public:
-  TableText(std::size_t name_width, bool with_spreads)
-      : name_width_(name_width), with_spreads_(with_spreads) {}
-
-  static std::size_t figures_width(bool with_spreads) {
-    std::size_t width = 0;
-    for (const Column& column : columns()) {
-      width += 1 + cell_width(column, with_spreads);
-    }
-    return width;
+  /// \param longest width of the longest name.
+  TableText(std::size_t longest, bool with_spreads) : with_spreads_(with_spreads) {
+    std::size_t figures_width = 0;
+    for (const Column& column : columns()) figures_width += 1 + cell_width(column);
+    name_width_ = std::min(longest, kWidth - figures_width);
   }
 
   void header() {
@@ -52,7 +48,7 @@ class TableText {
     for (const Column& column : columns()) {
       // Aligns the label with the numbers; the spreads extend to the right.
       const std::size_t numbers = std::max<std::size_t>(column.metric.label.size(), column.width);
-      const std::size_t rest = cell_width(column, with_spreads_) - numbers;
+      const std::size_t rest = cell_width(column) - numbers;
       text_ += fmt::format(" {:>{}}{:{}}", column.metric.label, numbers, "", rest);
     }
     end();
@@ -63,7 +59,7 @@ class TableText {
     begin(name);
     for (const Column& column : columns()) {
       const std::size_t rest =
-          cell_width(column, with_spreads_) - column.width - (with_spreads_ ? kSpreadWidth : 0);
+          cell_width(column) - column.width - (with_spreads_ ? kSpreadWidth : 0);
       const std::optional<Spread> spread = spread_of(column.metric.key);
       text_ += fmt::format(" {:{}}", "", rest);
       text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width,
@@ -82,14 +78,13 @@ class TableText {
     text_ += " " + words;
     end();
   }
-  void line(const std::string& words) { text_ += words; }
-
-  const std::string& text() const { return text_; }
+  /// The table so far.
+  std::string text() const { return text_; }
 
  private:
-  static std::size_t cell_width(const Column& column, bool with_spreads) {
+  std::size_t cell_width(const Column& column) const {
     return std::max<std::size_t>(column.metric.label.size(),
-                                 column.width + (with_spreads ? kSpreadWidth : 0));
+                                 column.width + (with_spreads_ ? kSpreadWidth : 0));
   }
   void begin(const std::string& name) {
     text_ += fmt::format("{:<{}}", name, name_width_);
@@ -100,7 +95,7 @@ class TableText {
     text_ += '\n';
   }
 
-  std::size_t name_width_;
+  std::size_t name_width_ = 0;
   bool with_spreads_;
   std::string text_;
 };
@@ -108,7 +103,7 @@ class TableText {
 /// Sort key: errors first, then by F1 upwards, then scenarios without F1.
 double badness_key(const ScenarioResult& scenario) {
   if (outcome_of(scenario) == Outcome::error) return -1;
-  const std::optional<Spread> f1 = over_seeds(scenario, bench::kF1);
+  const std::optional<Spread> f1 = over_seeds(scenario, scoring::kF1);
   return f1 ? f1->mean : 2;
 }
 
@@ -158,7 +153,7 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
     longest = std::max(longest, group_row_name(suite, group).size());
   }
 
-  TableText table(std::min(longest, kWidth - TableText::figures_width(with_spreads)), with_spreads);
+  TableText table(longest, with_spreads);
   table.header();
   for (const ScenarioResult* row : rows) {
     const bool has_figures =
@@ -177,11 +172,12 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
       return Spread{mean.mean, of_worlds ? mean.half.value_or(0) : 0, 1};
     });
   }
+  std::string text = table.text();
   for (const auto& [metric, width] : columns()) {
-    table.line(fmt::format("  {:<10} {}: {}\n", metric.label, metric.key, metric.first_sentence()));
+    text += fmt::format("  {:<10} {}: {}\n", metric.label, metric.key, metric.first_sentence());
   }
-  if (of_worlds) table.line(kWorldsLegend);
-  return table.text();
+  if (of_worlds) text += kWorldsLegend;
+  return text;
 }
 
 std::vector<std::string> problems(const SuiteResult& suite) {
@@ -190,7 +186,7 @@ std::vector<std::string> problems(const SuiteResult& suite) {
     std::vector<Repeated> run_errors;
     for (const RunResult& run : scenario.runs) {
       if (run.outcome == Outcome::error) add(run_errors, run.error, run.error, run.seed);
-      for (const bench::JudgedCriterion& criterion : run.criteria) {
+      for (const scoring::JudgedCriterion& criterion : run.criteria) {
         const bool is_told = criterion.over != "seed" && &run != &scenario.runs.front();
         if (criterion.met || is_told) continue;
         const std::string of = criterion.over == "seed" ? fmt::format(" seed {}", run.seed) : "";
@@ -214,8 +210,8 @@ std::vector<std::string> warnings(const SuiteResult& suite) {
   for (const ScenarioResult& scenario : suite.scenarios) {
     std::vector<Repeated> told;
     for (const RunResult& run : scenario.runs) {
-      for (const bench::Warned& warned : run.warnings) {
-        add(told, warned.word, bench::lines_of({warned}).front(), run.seed);
+      for (const recording::Warned& warned : run.warnings) {
+        add(told, warned.word, recording::lines_of({warned}).front(), run.seed);
       }
     }
     for (const auto& [word, text, seeds] : told) {

@@ -12,115 +12,12 @@ namespace lcs::suite {
 namespace {
 
 std::optional<double> metric_of(const RunResult& run, std::string_view name) {
-  const auto found =
-      std::ranges::find_if(run.metrics, [&](const auto& metric) { return metric.first == name; });
+  const auto found = std::ranges::find(run.metrics, name, &scoring::Metrics::value_type::first);
   return found == run.metrics.end() ? std::nullopt : found->second;
 }
 
-}  // namespace
-
-const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
-  const auto found = std::ranges::find_if(
-      suite.scenarios, [&](const auto& scenario) { return scenario.name == name; });
-  return found == suite.scenarios.end() ? nullptr : &*found;
-}
-
-const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
-  const auto found =
-      std::ranges::find_if(scenario.runs, [&](const auto& run) { return run.seed == seed; });
-  return found == scenario.runs.end() ? nullptr : &*found;
-}
-
-std::optional<double> figure_of(const RunResult& run, std::string_view name) {
-  if (name != bench::kSizeShare) return metric_of(run, name);
-  const std::optional<double> size = metric_of(run, "dimension.mean");
-  const std::optional<double> store = metric_of(run, "dimension.five_frame_mean");
-  return size && store ? bench::ratio(*size, *store) : std::nullopt;
-}
-
-std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name) {
-  std::vector<double> figures;
-  for (const RunResult& run : scenario.runs) {
-    if (const auto figure = figure_of(run, name)) figures.push_back(*figure);
-  }
-  if (figures.empty()) return std::nullopt;
-  const auto [least, greatest] = std::minmax_element(figures.begin(), figures.end());
-  return Spread{*bench::mean(figures), (*greatest - *least) / 2, static_cast<int>(figures.size())};
-}
-
-std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
-                                      std::string_view name) {
-  const ScenarioResult* found = find(suite, scenario);
-  const auto spread = found ? over_seeds(*found, name) : std::nullopt;
-  return spread ? std::optional(spread->mean) : std::nullopt;
-}
-
-std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
-                                     std::string_view name) {
-  std::vector<double> figures;
-  for (const ScenarioResult& scenario : suite.scenarios) {
-    if (!is_in(scenario, group)) continue;
-    if (const auto spread = over_seeds(scenario, name)) figures.push_back(spread->mean);
-  }
-  return figures;
-}
-
-std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
-                                 std::string_view name) {
-  return bench::mean(figures_of_group(suite, group, name));
-}
-
-bool is_in(const ScenarioResult& scenario, const std::string& group) {
-  return group == kAll || std::ranges::find(scenario.groups, group) != scenario.groups.end();
-}
-
-std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
-  return std::ranges::count_if(
-      suite.scenarios, [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
-}
-
-std::string counted_group(const SuiteResult& suite, const std::string& group) {
-  const auto all = count_in(suite, group);
-  const auto with_f1 = std::ssize(figures_of_group(suite, group, bench::kF1));
-  return with_f1 == all ? fmt::format("{} ({})", group, all)
-                        : fmt::format("{} ({}, {} with F1)", group, all, with_f1);
-}
-
-std::vector<std::string> groups_of(const SuiteResult& suite) {
-  std::vector<std::string> groups;
-  for (const ScenarioResult& scenario : suite.scenarios) {
-    for (const std::string& group : scenario.groups) {
-      if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
-    }
-  }
-  const auto has_all = [&](const std::string& group) {
-    return std::ranges::all_of(suite.scenarios, [&](const ScenarioResult& scenario) {
-      return is_in(scenario, group) || std::ranges::all_of(scenario.runs, [](const auto& run) {
-               return run.metrics.empty();
-             });
-    });
-  };
-  if (std::ranges::none_of(groups, has_all)) groups.insert(groups.begin(), kAll);
-  return groups;
-}
-
-bool is_of_worlds(const SuiteResult& suite) {
-  return !suite.scenarios.empty() &&
-         std::ranges::all_of(suite.scenarios, [](const ScenarioResult& scenario) {
-           return scenario.drawn.has_value();
-         });
-}
-
-std::int64_t drawn_again(const SuiteResult& suite) {
-  return std::ranges::count_if(suite.scenarios, [](const ScenarioResult& scenario) {
-    return scenario.drawn && scenario.drawn->again > 0;
-  });
-}
-
-namespace {
-
 /// \param values of the seeds; one of them undefined meets no bound.
-void judge_over_seeds(bench::JudgedCriterion& criterion,
+void judge_over_seeds(scoring::JudgedCriterion& criterion,
                       const std::vector<std::optional<double>>& values) {
   std::vector<double> defined;
   for (const std::optional<double>& value : values) {
@@ -149,24 +46,120 @@ void judge_over_seeds(bench::JudgedCriterion& criterion,
                                   criterion.place, criterion.metric, found,
                                   criterion.over == "mean" ? "mean" : "95 % interval of the mean",
                                   values.size(), values.size() == 1 ? "" : "s",
-                                  bench::bounds(criterion.min, criterion.max));
+                                  scoring::bounds(criterion.min, criterion.max));
 }
 
 }  // namespace
+
+const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
+  const auto found = std::ranges::find(suite.scenarios, name, &ScenarioResult::name);
+  return found == suite.scenarios.end() ? nullptr : &*found;
+}
+
+const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
+  const auto found = std::ranges::find(scenario.runs, seed, &RunResult::seed);
+  return found == scenario.runs.end() ? nullptr : &*found;
+}
+
+std::optional<double> figure_of(const RunResult& run, std::string_view name) {
+  if (name != scoring::kSizeShare) return metric_of(run, name);
+  const std::optional<double> size = metric_of(run, "dimension.mean");
+  const std::optional<double> store = metric_of(run, "dimension.five_frame_mean");
+  return size && store ? scoring::ratio(*size, *store) : std::nullopt;
+}
+
+std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name) {
+  std::vector<double> figures;
+  for (const RunResult& run : scenario.runs) {
+    if (const auto figure = figure_of(run, name)) figures.push_back(*figure);
+  }
+  if (figures.empty()) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(figures.begin(), figures.end());
+  return Spread{*scoring::mean(figures), (*greatest - *least) / 2,
+                static_cast<int>(figures.size())};
+}
+
+std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
+                                      std::string_view name) {
+  const ScenarioResult* found = find(suite, scenario);
+  const auto spread = found ? over_seeds(*found, name) : std::nullopt;
+  return spread ? std::optional(spread->mean) : std::nullopt;
+}
+
+std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
+                                     std::string_view name) {
+  std::vector<double> figures;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    if (!is_in(scenario, group)) continue;
+    if (const auto spread = over_seeds(scenario, name)) figures.push_back(spread->mean);
+  }
+  return figures;
+}
+
+std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
+                                 std::string_view name) {
+  return scoring::mean(figures_of_group(suite, group, name));
+}
+
+bool is_in(const ScenarioResult& scenario, const std::string& group) {
+  return group == kAll || std::ranges::find(scenario.groups, group) != scenario.groups.end();
+}
+
+std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
+  return std::ranges::count_if(
+      suite.scenarios, [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
+}
+
+std::string counted_group(const SuiteResult& suite, const std::string& group) {
+  const auto all = count_in(suite, group);
+  const auto with_f1 = std::ssize(figures_of_group(suite, group, scoring::kF1));
+  return with_f1 == all ? fmt::format("{} ({})", group, all)
+                        : fmt::format("{} ({}, {} with F1)", group, all, with_f1);
+}
+
+std::vector<std::string> groups_of(const SuiteResult& suite) {
+  std::vector<std::string> groups;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    for (const std::string& group : scenario.groups) {
+      if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
+    }
+  }
+  const auto has_all = [&](const std::string& group) {
+    return std::ranges::all_of(suite.scenarios, [&](const ScenarioResult& scenario) {
+      return is_in(scenario, group) || std::ranges::all_of(scenario.runs, [](const auto& run) {
+               return run.metrics.empty();
+             });
+    });
+  };
+  if (std::ranges::none_of(groups, has_all)) groups.insert(groups.begin(), kAll);
+  return groups;
+}
+
+bool is_of_worlds(const SuiteResult& suite) {
+  return !suite.scenarios.empty() && std::ranges::all_of(suite.scenarios, [](const auto& one) {
+    return one.drawn.has_value();
+  });
+}
+
+std::int64_t drawn_again(const SuiteResult& suite) {
+  return std::ranges::count_if(suite.scenarios, [](const ScenarioResult& scenario) {
+    return scenario.drawn && scenario.drawn->again > 0;
+  });
+}
 
 void judge_over_seeds(ScenarioResult& scenario) {
   std::size_t most = 0;
   for (const RunResult& run : scenario.runs) most = std::max(most, run.criteria.size());
   for (std::size_t i = 0; i < most; ++i) {
     std::vector<std::optional<double>> values;
-    const bench::JudgedCriterion* first = nullptr;
+    const scoring::JudgedCriterion* first = nullptr;
     for (const RunResult& run : scenario.runs) {
       if (i >= run.criteria.size()) continue;  // it ended with an error
       first = first ? first : &run.criteria[i];
       values.push_back(figure_of(run, run.criteria[i].metric));
     }
     if (first->over == "seed") continue;
-    bench::JudgedCriterion judged = *first;
+    scoring::JudgedCriterion judged = *first;
     judge_over_seeds(judged, values);
     for (RunResult& run : scenario.runs) {
       if (i < run.criteria.size()) run.criteria[i] = judged;

@@ -32,11 +32,11 @@ constexpr std::array<const char*, 6> kStandings{"error",   "failed",   "regresse
 // ---- Rules
 
 /// The sums of a run's events; absent if it has none or they are unreadable, as they only explain.
-std::optional<bench::EventSums> event_sums_of(const SuiteInFolder& suite, const RunResult& run) {
+std::optional<scoring::EventSums> event_sums_of(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.events_of(run);
   if (file.empty()) return std::nullopt;
   try {
-    return bench::read_event_sums(file);
+    return scoring::read_event_sums(file);
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -48,10 +48,7 @@ void add_rule(const std::map<Cause, int>& after, const std::map<Cause, int>& bef
               bool has_before, const char* what, const char* unit,
               std::vector<std::string>& reasons) {
   std::optional<Cause> worst;
-  const auto was = [&](Cause reason) {
-    const auto found = before.find(reason);
-    return found == before.end() ? 0 : found->second;
-  };
+  const auto was = [&](Cause reason) { return before.contains(reason) ? before.at(reason) : 0; };
   int most = 0;
   for (const auto& [reason, corners] : after) {
     const int least = std::max(kLeastNew, was(reason) / 20);
@@ -73,7 +70,7 @@ void add_rule(const std::map<Cause, int>& after, const std::map<Cause, int>& bef
 /// Adds the rules behind the wrong verdicts. With a baseline, counts only runs of both suites.
 void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
                const ScenarioResult& scenario, std::vector<std::string>& reasons) {
-  bench::EventSums now, then;
+  scoring::EventSums now, then;
   const ScenarioResult* other = before ? find(before->suite, scenario.name) : nullptr;
   bool has_before = false;
   for (const RunResult& run : scenario.runs) {
@@ -129,15 +126,11 @@ struct Weighed {
 
 void add_changes(const Comparison& comparison, const std::string& scenario, Change verdict,
                  Weighed& to) {
-  std::vector<const Difference*> found;
-  for (const Difference& difference : comparison.differences) {
-    if (difference.scenario == scenario && difference.verdict == verdict) {
-      found.push_back(&difference);
-    }
-  }
+  std::vector<const Difference*> found = comparison.with(verdict);
+  std::erase_if(found, [&](const Difference* one) { return one->scenario != scenario; });
   // F1 comes first, even if another figure changed by more
   const auto weight = [](const Difference* one) {
-    return one->metric == bench::kF1 ? std::numeric_limits<double>::infinity() : one->weight;
+    return one->metric == scoring::kF1 ? std::numeric_limits<double>::infinity() : one->weight;
   };
   std::ranges::stable_sort(found,
                            [&](const auto* a, const auto* b) { return weight(a) > weight(b); });
@@ -164,7 +157,7 @@ void add_failed_criteria(const ScenarioResult& scenario, Weighed& to) {
     }
   }
   for (const auto& [i, runs] : failed) {
-    const bench::JudgedCriterion& criterion = runs.front()->criteria[i];
+    const scoring::JudgedCriterion& criterion = runs.front()->criteria[i];
     const bool is_of_run = criterion.over == "seed";
     std::string reason = "failed criterion, ";
     if (is_of_run) reason += fmt::format("seed {}, ", runs.front()->seed);
@@ -209,23 +202,13 @@ std::optional<Weighed> weighed(const SuiteInFolder& after, const SuiteInFolder* 
 
 fs::path SuiteInFolder::events_of(const RunResult& run) const {
   if (folder.empty() || run.folder.empty()) return {};
-  fs::path file = folder / run.folder / bench::kEventsFile;
+  fs::path file = folder / run.folder / scoring::kEventsFile;
   return fs::exists(file) ? file : fs::path();
 }
 
 std::vector<Standing> standings_of(const ScenarioResult& scenario, const Comparison* comparison) {
-  std::vector<Standing> standings;
-  switch (outcome_of(scenario)) {
-    case Outcome::passed:
-      standings = {Standing::passed};
-      break;
-    case Outcome::failed:
-      standings = {Standing::failed};
-      break;
-    case Outcome::error:
-      standings = {Standing::error};
-      break;
-  }
+  constexpr std::array<Standing, 3> kByOutcome{Standing::passed, Standing::failed, Standing::error};
+  std::vector standings{kByOutcome.at(static_cast<std::size_t>(outcome_of(scenario)))};
   const auto change = comparison ? comparison->of_scenario(scenario.name) : std::nullopt;
   if (change == Change::regressed) standings.push_back(Standing::regressed);
   if (change == Change::unknown) standings.push_back(Standing::changed);
@@ -233,8 +216,8 @@ std::vector<Standing> standings_of(const ScenarioResult& scenario, const Compari
   return standings;
 }
 
-Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
-                   const Comparison* comparison, std::span<const SuiteResult> others) {
+SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
+                        const Comparison* comparison, std::span<const SuiteResult> others) {
   std::vector<Weighed> all;
   for (const ScenarioResult& scenario : after.suite.scenarios) {
     if (auto found = weighed(after, before, comparison, scenario)) {
@@ -246,15 +229,14 @@ Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
   });
   const CriteriaCounts criteria = count_criteria(judgements_of(after.suite, others));
   const bool has_regressed = comparison && comparison->has_regressed();
-  Verdict verdict{.line = line_of(after.suite, comparison, criteria),
-                  .is_good = criteria.failed + criteria.errors == 0 && !has_regressed,
-                  .note = comparison ? comparison->note() : "",
-                  .remarks = {}};
+  SuiteVerdict verdict{.line = line_of(after.suite, comparison, criteria),
+                       .is_good = criteria.failed + criteria.errors == 0 && !has_regressed,
+                       .note = comparison ? comparison->note() : ""};
   for (Weighed& one : all) verdict.remarks.push_back(std::move(one.remark));
   return verdict;
 }
 
-std::string text_of(const Verdict& verdict) {
+std::string text_of(const SuiteVerdict& verdict) {
   std::string text;
   for (const Remark& remark : verdict.remarks) {
     text += fmt::format("{}: {}\n", text_of(remark.standings), remark.scenario);
@@ -265,11 +247,9 @@ std::string text_of(const Verdict& verdict) {
 }
 
 std::string text_of(const std::vector<Standing>& standings) {
-  std::string words;
-  for (const Standing standing : standings) {
-    words += fmt::format("{}{}", words.empty() ? "" : ", ", word_of(standing));
-  }
-  return words;
+  std::vector<const char*> words;
+  for (const Standing standing : standings) words.push_back(word_of(standing));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 const char* word_of(Standing standing) {

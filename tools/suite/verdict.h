@@ -34,16 +34,15 @@ struct Remark {
   std::vector<std::string> reasons;  ///< texts, worst first
 };
 
-struct Verdict {
+struct SuiteVerdict {
   /// Such as "not regressed: of 280 means 0 regressed, 1 improved; of 43 scenarios 1 regressed, 0
   /// improved, 42 as before; 43 of 44 criteria met, 1 failed"; without a baseline the criteria
-  /// alone
-  /// (`text_of(CriteriaCounts)`).
+  /// alone (`text_of(CriteriaCounts)`).
   std::string line;
-  bool is_good =
-      true;          ///< false if a criterion failed, a run ended with an error or a mean regressed
-  std::string note;  ///< a caveat on the line; may be empty
-  std::vector<Remark> remarks;  ///< worst first; only scenarios with reasons
+  /// False if a criterion failed, a run ended with an error or a mean regressed.
+  bool is_good = true;
+  std::string note;                  ///< a caveat on the line; may be empty
+  std::vector<Remark> remarks = {};  ///< worst first; only scenarios with reasons
 };
 
 /// States the changed figures, the missed criteria, and the filter's rule behind most of the missed
@@ -51,11 +50,11 @@ struct Verdict {
 /// all events of the runs, if they have any.
 /// \param before,comparison null without a baseline.
 /// \param others the results of the detectors of `--beside`, whose criteria the line counts too.
-Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
-                   const Comparison* comparison, std::span<const SuiteResult> others = {});
+SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
+                        const Comparison* comparison, std::span<const SuiteResult> others = {});
 
 /// The remarks and the note, without the line.
-std::string text_of(const Verdict& verdict);
+std::string text_of(const SuiteVerdict& verdict);
 
 /// The word for the user: such as "regressed".
 const char* word_of(Standing standing);

@@ -20,7 +20,7 @@ constexpr const char* kColumns = "f1,false_moving,false_static,false_capped,fals
 
 }  // namespace
 
-Evaluations::Evaluations(const std::filesystem::path& file, const bench::Provenance& provenance,
+Evaluations::Evaluations(const std::filesystem::path& file, const files::Provenance& provenance,
                          const std::vector<std::string>& keys)
     : journal_(file, kSign, provenance, fmt::format("{},{}", fmt::join(keys, ","), kColumns),
                kRemedy, [&](const std::string& row, int line) {
@@ -29,7 +29,7 @@ Evaluations::Evaluations(const std::filesystem::path& file, const bench::Provena
                        {file.string(), line},
                        fmt::format("the row '{}' {}; {}", input::one_line(row), what, kRemedy));
                  };
-                 const auto cells = bench::fields_of(row);
+                 const auto cells = files::fields_of(row);
                  if (cells.size() != keys.size() + std::size(kFigures)) {
                    refuse(fmt::format("has {} cells, and not {}", cells.size(),
                                       keys.size() + std::size(kFigures)));
@@ -37,7 +37,7 @@ Evaluations::Evaluations(const std::filesystem::path& file, const bench::Provena
                  std::vector<std::string> values;
                  Worth worth;
                  for (std::size_t i = 0; i < cells.size(); ++i) {
-                   const auto number = bench::number_in<double>(cells[i]);
+                   const auto number = files::number_in<double>(cells[i]);
                    if (!number) {
                      refuse(fmt::format("has '{}', which is no number", input::one_line(cells[i])));
                    }

@@ -21,7 +21,7 @@ class Evaluations {
   /// Opens or creates the file.
   /// \param provenance all facts and files that the figures depend on. \param keys of the searched
   ///   parameters. \throws as `bench::Journal`; input::Error for a row of other numbers.
-  Evaluations(const std::filesystem::path& file, const bench::Provenance& provenance,
+  Evaluations(const std::filesystem::path& file, const files::Provenance& provenance,
               const std::vector<std::string>& keys);
 
   /// The figures of these values; absent if not evaluated yet. \param values in the order of keys.
@@ -32,7 +32,7 @@ class Evaluations {
 
  private:
   std::map<std::vector<std::string>, Worth> known_;
-  bench::Journal journal_;
+  files::Journal journal_;
 };
 
 }  // namespace lcs::tune

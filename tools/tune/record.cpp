@@ -26,7 +26,8 @@ std::string cell_of(const std::string& text) {
 
 std::string preset_text(const Found& found, const Circumstances& circumstances) {
   std::string text = fmt::format(
-      "{}, and not by hand: what the preset `default` has learnt from worlds and\n"
+      "/// Written by `lcs tune`, and not by hand: what the preset `default` has learnt from "
+      "worlds and\n"
       "/// recordings of `train`.\n"
       "///\n"
       "///   {}\n"
@@ -37,9 +38,8 @@ std::string preset_text(const Found& found, const Circumstances& circumstances) 
       "namespace lcs {{\n\n"
       "/// Keys as `set` takes them, and values.\n"
       "inline constexpr std::array<std::pair<const char*, double>, {}> kLearnt{{{{\n",
-      kPresetSign, line_of(circumstances.command), circumstances.date, circumstances.program,
-      found.evaluations, found.worth_before.objective(), found.worth_after.objective(),
-      found.after.size());
+      line_of(circumstances.command), circumstances.date, circumstances.program, found.evaluations,
+      found.worth_before.objective(), found.worth_after.objective(), found.after.size());
   for (const Setting& setting : found.after) {
     text += fmt::format("    {{\"{}\", {}}},\n", setting.key, setting.value);
   }
@@ -49,7 +49,7 @@ std::string preset_text(const Found& found, const Circumstances& circumstances) 
 std::string record_text(const Found& found, const std::vector<Stated>& stated,
                         const Circumstances& circumstances) {
   std::string text = fmt::format(
-      "{}\n\n"
+      "# What `lcs tune` found\n\n"
       "{}, lcs {}, {} evaluations by NLopt's BOBYQA:\n\n"
       "    {}\n\n"
       "It makes the most of the mean F1 of rebels over the worlds in which something moves, less a "
@@ -59,8 +59,7 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       "| | objective | F1 | false objects in 100 frames, something moves | nothing moves | false "
       "corners, recordings |\n"
       "|---|---|---|---|---|---|\n",
-      kRecordSign, circumstances.date, circumstances.program, found.evaluations,
-      line_of(circumstances.command));
+      circumstances.date, circumstances.program, found.evaluations, line_of(circumstances.command));
   for (const Stated& one : stated) {
     for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
       text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n",

@@ -10,9 +10,7 @@
 namespace lcs::tune {
 
 inline constexpr const char* kPresetFile = "learnt.h";
-inline constexpr const char* kPresetSign = "/// Written by `lcs tune`";
 inline constexpr const char* kRecordFile = "record.md";
-inline constexpr const char* kRecordSign = "# What `lcs tune` found";
 
 /// The figures of the values before and after the search on one suite.
 struct Stated {

@@ -39,8 +39,7 @@ double number(std::string_view text) {
 }
 
 Axis axis_of(const std::vector<ParameterInfo>& known, const std::string& key) {
-  const auto found = std::find_if(known.begin(), known.end(),
-                                  [&](const ParameterInfo& info) { return info.key == key; });
+  const auto found = std::ranges::find(known, key, &ParameterInfo::key);
   if (found == known.end()) {
     std::vector<std::string> names;
     for (const ParameterInfo& info : known) names.push_back(info.key);
@@ -87,9 +86,9 @@ std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string
   return axes;
 }
 
-void add_facts(bench::Provenance::Json& facts, const SearchOptions& options) {
+void add_facts(files::Provenance::Json& facts, const SearchOptions& options) {
   facts["seed"] = options.seed;
-  facts["keys"] = bench::Provenance::Json::array();
+  facts["keys"] = files::Provenance::Json::array();
   for (const Axis& axis : options.axes) {
     facts["keys"].push_back(axis.key);
     facts[axis.key] = fmt::format("{}, tried from {} to {}", axis.start, axis.low, axis.high);
@@ -101,20 +100,15 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   const std::vector<Axis>& axes = options.axes;
   Found found;
   std::exception_ptr problem;
-  const auto settings_at = [&](const std::vector<double>& z) {
-    std::vector<Setting> settings;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      settings.push_back({axes[i].key, text_of(start, axes[i].key, value_at(axes[i], z[i]))});
-    }
-    return settings;
-  };
   const auto worth_at = [&](const std::vector<double>& z) {
-    const std::vector<Setting> settings = settings_at(z);
+    std::vector<Setting> settings;
     std::vector<std::string> values;
     Parameters parameters = start;
-    for (const Setting& setting : settings) {
-      values.push_back(setting.value);
-      set(parameters, setting.key, setting.value);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const std::string& key = axes[i].key;
+      values.push_back(text_of(start, key, value_at(axes[i], z[i])));
+      settings.push_back({key, values.back()});
+      set(parameters, key, values.back());
     }
     std::optional<Worth> worth = known.find(values);
     if (!worth) {

@@ -40,12 +40,12 @@ class Trials {
   Worth worth(
       const Parameters& parameters, const std::function<void()>& tick = [] {}) const;
 
-  const std::vector<bench::Recording>& runs() const { return runs_; }
+  const std::vector<recording::Recording>& runs() const { return runs_; }
 
  private:
   void read(const std::filesystem::path& suite);
 
-  std::vector<bench::Recording> runs_;
+  std::vector<recording::Recording> runs_;
 };
 
 }  // namespace lcs::tune

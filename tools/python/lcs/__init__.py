@@ -23,68 +23,12 @@ from typing import Optional as _Optional, Union as _Union
 from numpy.typing import ArrayLike as _ArrayLike
 
 from . import _core
-from ._core import (
-    Camera,
-    Detections,
-    Detector,
-    Error,
-    Filter,
-    Frame,
-    Label,
-    Motion,
-    Reason,
-    Result,
-    Scenario,
-    Scorer,
-    Simulation,
-    Truth,
-    Verdict,
-    __version__,
-    compare,
-    detectors,
-    generate,
-    kinematics,
-    merge,
-    replay,
-    run,
-    suite,
-    tune,
-    world,
-    worlds,
-)
+from ._core import *
+from ._core import __version__
 
-__all__ = [
-    "SCENARIOS",
-    "Camera",
-    "Detections",
-    "Detector",
-    "Error",
-    "Filter",
-    "Frame",
-    "Label",
-    "Motion",
-    "Reason",
-    "Result",
-    "Scenario",
-    "Scorer",
-    "Simulation",
-    "Truth",
-    "Verdict",
-    "__version__",
-    "compare",
-    "detectors",
-    "generate",
-    "kinematics",
-    "merge",
-    "replay",
-    "run",
-    "score",
-    "simulate",
-    "suite",
-    "tune",
-    "world",
-    "worlds",
-]
+__all__ = ["SCENARIOS"] + sorted(
+    ["__version__", "score", "simulate"] + [name for name in vars(_core) if name[0] != "_"]
+)
 
 # The program runs suites in processes of its own, and knows where the scenes are.
 _core._use_program(_Path(__file__).parent / "bin" / "lcs")
