@@ -116,7 +116,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   const std::vector<Square>& squares = square_expert.step(*edges, *circles, field);
   result.times.square_ms = watch.lap_ms();
 
-  set_layers(*edges, circles->circles, circles->of_edges, squares, result.layers);
+  set_layers(*edges, *circles, squares, result.layers);
   return result;
 }
 

@@ -12,7 +12,6 @@ Needs python3-opencv and python3-numpy.
 """
 import argparse
 import csv
-import os
 import sys
 from pathlib import Path
 
@@ -176,7 +175,7 @@ def main(arguments=None):
             writer = csv.DictWriter(file, ["group", "run", "frame", *MEASURES], lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows)
-        os.replace(part, options.out)
+        part.replace(options.out)
     except (lcs.Error, OSError, ValueError) as error:
         print(f"likeness: {error}", file=sys.stderr)
         return 2

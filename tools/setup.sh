@@ -1,4 +1,5 @@
-# Functions for tools/run and tools/test that install packages and update build/:
+# Functions for tools/run, tools/test and others, which install packages and update build/:
+#   help_if_asked "$@"            prints its input and exits, if the first argument asks for help
 #   install_packages PACKAGE...   installs missing packages and MuJoCo, or prints how and exits with 2
 #   build_release TARGET...       configures $preset and builds the targets in build/
 # Made for Debian 12, and also tested on Debian 13 and Ubuntu 24.04 (tests/systems).
@@ -28,6 +29,12 @@ declare -A mujoco_sha256=(
 
 say() { printf '%s\n' "$*" >&2; }
 
+help_if_asked() {
+  [[ ${1-} == -h || ${1-} == --help ]] || return 0
+  cat
+  exit 0
+}
+
 missing_packages() {
   # dpkg-query fails if it does not know a package, but still lists the others
   local package installed
@@ -35,17 +42,6 @@ missing_packages() {
   for package in "$@"; do
     [[ " $installed" == *" $package=installed "* ]] || printf '%s\n' "$package"
   done
-}
-
-# Sets as_root to a prefix that runs a command as root, or fails.
-find_root() {
-  if [[ $EUID -eq 0 ]]; then
-    as_root=(env)
-  elif sudo -n true 2>/dev/null; then
-    as_root=(sudo -n)
-  else
-    return 1
-  fi
 }
 
 warn_unless_tested() {
@@ -98,8 +94,9 @@ install_debian_packages() {
   [[ ${#missing[@]} -gt 0 ]] || return 0
 
   warn_unless_tested
-  local as_root install="apt-get install -y --no-install-recommends ${missing[*]}"
-  if ! find_root; then
+  local as_root=(env) install="apt-get install -y --no-install-recommends ${missing[*]}"
+  [[ $EUID -eq 0 ]] || as_root=(sudo -n)
+  if ! "${as_root[@]}" true 2>/dev/null; then
     say "Packages are missing, and there is neither root nor sudo without a password here. As root:"
     say "  apt-get update && $install"
     exit 2

@@ -44,7 +44,7 @@ void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
     }
   }
   const auto place = [](const Share& s) { return std::tuple(s.circle, s.group); };
-  std::ranges::sort(shares_, [&](const Share& a, const Share& b) { return place(a) < place(b); });
+  std::ranges::sort(shares_, {}, place);
   std::size_t last = 0;
   for (std::size_t s = 1; s < shares_.size(); ++s) {
     if (place(shares_[s]) == place(shares_[last])) {
@@ -54,9 +54,8 @@ void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
     }
   }
   if (!shares_.empty()) shares_.resize(last + 1);
-  std::ranges::sort(shares_, [](const Share& a, const Share& b) {
-    return std::tuple(-a.edges, a.circle, a.group) < std::tuple(-b.edges, b.circle, b.group);
-  });
+  std::ranges::sort(shares_, {},
+                    [](const Share& s) { return std::tuple(-s.edges, s.circle, s.group); });
   refill(circle_of_group_, found_.size(), -1);
   refill(group_of_circle_, circles, -1);
   for (const Share& share : shares_) {
@@ -82,25 +81,22 @@ void CircleExpert::regroup(const std::vector<Edge>& edges, const MotionField& fi
   refill(of_edges, edges.size(), -1);
   next_.clear();
   make_room(next_, found_.size());
-  const auto add = [&](std::size_t g, Id id, int trust, int age) {
+  const auto add = [&](std::size_t g, const Circle& same) {
     const auto of_group = groups_.edges(found_[g]);
     for (const int i : of_group) of_edges[i] = static_cast<int>(next_.size());
-    Circle circle = mean_circle(edges, of_group, field);
-    circle.id = id;
-    circle.trust = trust;
-    circle.age = age;
-    next_.push_back(circle);
+    next_.push_back(mean_circle(edges, of_group, field, same));
   };
   for (std::size_t c = 0; c < circles.size(); ++c) {
-    const Circle& circle = circles[c];
-    const int g = group_of_circle_[c];
-    if (g < 0) continue;
-    add(static_cast<std::size_t>(g), circle.id, ranks.raised(circle.trust), circle.age + 1);
+    Circle& circle = circles[c];
+    if (group_of_circle_[c] < 0) continue;
+    circle.trust = ranks.raised(circle.trust);
+    ++circle.age;
+    add(static_cast<std::size_t>(group_of_circle_[c]), circle);
   }
   for (std::size_t g = 0; g < found_.size(); ++g) {
     if (circle_of_group_[g] >= 0) continue;
     const bool rebel = edges[groups_.edges(found_[g]).front()].rebel;
-    add(g, next_id_++, rebel ? ranks.initial_rebel() : ranks.initial_normal(), 0);
+    add(g, {.id = next_id_++, .trust = rebel ? ranks.initial_rebel() : ranks.initial_normal()});
   }
   copy_over(next_, circles);
   members.clear();

@@ -7,10 +7,9 @@
 namespace lcs {
 
 Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
-                   const MotionField& field) {
-  Circle mean;
+                   const MotionField& field, const Circle& same) {
+  Circle mean{.id = same.id, .depth_ratio = 0, .trust = same.trust, .age = same.age};
   Vec2 direction = Vec2::Zero();
-  mean.depth_ratio = mean.speed = 0;
   for (const int i : group) {
     const Edge& edge = edges[i];
     mean.location += edge.location;

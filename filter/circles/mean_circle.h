@@ -10,10 +10,10 @@
 
 namespace lcs {
 
-/// Mean place and motion of the edges; the radius reaches the outermost edge. Does not set id,
-/// trust and age.
+/// Mean place and motion of the edges; the radius reaches the outermost edge.
 /// \param group indices into `edges`; at least one, all of one kind.
+/// \param same gives id, trust and age.
 Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
-                   const MotionField& field);
+                   const MotionField& field, const Circle& same = {});
 
 }  // namespace lcs

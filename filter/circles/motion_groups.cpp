@@ -191,14 +191,16 @@ const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Ed
   groups_.clear();
   make_room(grouped_, points_.size());
   make_room(groups_, points_.size());
-  members_.collect(sets_);
-  members_.visit([&](std::span<const int> members) {
-    const PlaneSums& sums = sums_[sets_.root(members.front())];
+  members_.collect(sets_.roots(), points_.size());
+  for (std::size_t root = 0; root < points_.size(); ++root) {
+    const std::span<const int> members = members_.of(root);
+    if (members.empty()) continue;
+    const PlaneSums& sums = sums_[root];
     const bool ground =
         ground_known_ && ground_evidence(sums) > body_evidence(sums, sums.magnitude());
     groups_.push_back({grouped_.size(), members.size(), ground});
     for (const int node : members) grouped_.push_back(of_edge_[node]);
-  });
+  }
   return groups_;
 }
 

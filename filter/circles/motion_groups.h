@@ -15,6 +15,7 @@
 #include "filter/kinematics/motion_field.h"
 #include "filter/matching/couples.h"
 #include "filter/matching/disjoint_sets.h"
+#include "filter/matching/members.h"
 #include "filter/matching/point_grid.h"
 #include "filter/types/layers.h"
 
@@ -127,7 +128,7 @@ class MotionGroups {
   std::vector<Refusal> refused_;  // of each root
   std::vector<int> sizes_;        // of each root
   DisjointSets sets_;
-  SetMembers members_;
+  Members members_;
   std::vector<int> grouped_;
   std::vector<Group> groups_;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace lcs {
 namespace {
@@ -12,36 +13,25 @@ namespace {
 template <std::size_t N>
 using Ring = std::array<std::array<int, 2>, N>;
 
+/// The circle of which this is the first of four quarters.
+template <std::size_t N>
+constexpr Ring<4 * N> circle_of(Ring<N> quarter) {
+  Ring<4 * N> circle{};
+  for (std::size_t i = 0; i < circle.size(); ++i) {
+    auto& [x, y] = quarter[i % N];
+    circle[i] = {x, y};
+    x = std::exchange(y, -x);  // its place in the next quarter
+  }
+  return circle;
+}
+
 /// Bresenham's circles, counter-clockwise from the pixel below the centre.
-constexpr Ring<16> kSmall{{{0, 3},
-                           {1, 3},
-                           {2, 2},
-                           {3, 1},
-                           {3, 0},
-                           {3, -1},
-                           {2, -2},
-                           {1, -3},
-                           {0, -3},
-                           {-1, -3},
-                           {-2, -2},
-                           {-3, -1},
-                           {-3, 0},
-                           {-3, 1},
-                           {-2, 2},
-                           {-1, 3}}};
-constexpr Ring<20> kLarge{{{0, 4},   {1, 4},  {2, 3},  {3, 2},  {4, 1},   {4, 0},   {4, -1},
-                           {3, -2},  {2, -3}, {1, -4}, {0, -4}, {-1, -4}, {-2, -3}, {-3, -2},
-                           {-4, -1}, {-4, 0}, {-4, 1}, {-3, 2}, {-2, 3},  {-1, 4}}};
+constexpr Ring<16> kSmall = circle_of<4>({{{0, 3}, {1, 3}, {2, 2}, {3, 1}}});
+constexpr Ring<20> kLarge = circle_of<5>({{{0, 4}, {1, 4}, {2, 3}, {3, 2}, {4, 1}}});
 /// Least and greatest length of the arc of a corner.
 constexpr int kSmallLeast = 3, kSmallMost = 6, kLargeLeast = 4, kLargeMost = 8;
 
 constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::min() / 2;
-
-template <std::size_t N>
-bool is_corner(int arc, int least, int most) {
-  const int rest = static_cast<int>(N) - arc;
-  return arc <= most || (rest >= least && rest <= most);
-}
 
 }  // namespace
 
@@ -51,18 +41,19 @@ ArcStar::ArcStar(int width_px, int height_px)
       pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
               {{kNever_ns, kNever_ns}, {kNever_ns, kNever_ns}}) {}
 
-/// The number of pixels of the arc of the newest events, at least `least`.
+/// Whether the arc of the newest events on a circle is as long as an arc of a corner.
+/// \param least,most length of the arc of a corner, pixels.
 template <std::size_t N>
-int ArcStar::newest_arc(const Ring<N>& circle, int x, int y, bool is_on, int least) const {
+bool ArcStar::has_arc(const Ring<N>& circle, int x, int y, bool is_on, int least, int most) const {
   std::array<std::int64_t, N> t_ns;
   for (std::size_t i = 0; i < N; ++i) {
-    t_ns[i] = at(x + circle[i][0], y + circle[i][1]).surface_ns[is_on];
+    t_ns[i] = pixels_[index(x + circle[i][0], y + circle[i][1])].surface_ns[is_on];
   }
   const auto newest = static_cast<std::size_t>(std::ranges::max_element(t_ns) - t_ns.begin());
   // the neighbours at both ends of the arc, and the oldest that each side has passed so far
   std::size_t right = (newest + 1) % N, left = (newest + N - 1) % N;
   std::int64_t oldest_ns = t_ns[newest], right_oldest_ns = t_ns[right], left_oldest_ns = t_ns[left];
-  int arc = least;
+  int arc = least;  // its number of pixels, at least so many
   for (int length = 1; length < static_cast<int>(N); ++length) {
     const bool is_right = t_ns[right] > t_ns[left];
     std::size_t& next = is_right ? right : left;
@@ -75,12 +66,12 @@ int ArcStar::newest_arc(const Ring<N>& circle, int x, int y, bool is_on, int lea
     next = is_right ? (right + 1) % N : (left + N - 1) % N;
     side_oldest_ns = std::min(side_oldest_ns, t_ns[next]);
   }
-  return arc;
+  const int rest = static_cast<int>(N) - arc;
+  return arc <= most || (rest >= least && rest <= most);
 }
 
 bool ArcStar::add(int x, int y, std::int64_t t_ns, bool is_on) {
-  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-                         static_cast<std::size_t>(x)];
+  Pixel& pixel = pixels_[index(x, y)];
   const std::int64_t last_ns = pixel.last_ns[is_on];
   now_ns_ = t_ns;
   pixel.last_ns[is_on] = t_ns;
@@ -90,10 +81,8 @@ bool ArcStar::add(int x, int y, std::int64_t t_ns, bool is_on) {
       y >= height_px_ - kBorder_px) {
     return false;
   }
-  return is_corner<kSmall.size()>(newest_arc(kSmall, x, y, is_on, kSmallLeast), kSmallLeast,
-                                  kSmallMost) &&
-         is_corner<kLarge.size()>(newest_arc(kLarge, x, y, is_on, kLargeLeast), kLargeLeast,
-                                  kLargeMost);
+  return has_arc(kSmall, x, y, is_on, kSmallLeast, kSmallMost) &&
+         has_arc(kLarge, x, y, is_on, kLargeLeast, kLargeMost);
 }
 
 cv::Mat1b ArcStar::picture() const {

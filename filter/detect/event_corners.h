@@ -44,11 +44,11 @@ class ArcStar {
     std::array<std::int64_t, 2> last_ns;     ///< bursts included
   };
   template <std::size_t N>
-  int newest_arc(const std::array<std::array<int, 2>, N>& circle, int x, int y, bool is_on,
-                 int least) const;
-  const Pixel& at(int x, int y) const {
-    return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-                   static_cast<std::size_t>(x)];
+  bool has_arc(const std::array<std::array<int, 2>, N>& circle, int x, int y, bool is_on, int least,
+               int most) const;
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
+           static_cast<std::size_t>(x);
   }
 
   int width_px_, height_px_;

@@ -7,17 +7,6 @@
 #include "filter/detect/picture_noise.h"
 
 namespace lcs {
-namespace {
-
-std::vector<cv::KeyPoint> scored(const cv::Mat1b& grey, int threshold) {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::FAST(grey, keypoints, threshold, /*nonmaxSuppression=*/true,
-           cv::FastFeatureDetector::TYPE_9_16);
-  return keypoints;
-}
-
-}  // namespace
-
 FastDetector::FastDetector(std::optional<int> threshold) : threshold_(threshold) {
   if (threshold && (*threshold < 1 || *threshold > 254)) {
     throw std::invalid_argument("FAST threshold must be 1 to 254 grey levels, not " +
@@ -34,7 +23,7 @@ std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey) const {
 }
 
 std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey, int threshold) {
-  const std::vector<cv::KeyPoint> keypoints = scored(grey, threshold);
+  const std::vector<cv::KeyPoint> keypoints = FastDetector(threshold).detect_scored(grey);
   std::vector<Eigen::Vector2f> corners;
   corners.reserve(keypoints.size());
   for (const cv::KeyPoint& keypoint : keypoints) {
@@ -44,7 +33,10 @@ std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey, int thr
 }
 
 std::vector<cv::KeyPoint> FastDetector::detect_scored(const cv::Mat1b& grey) const {
-  return scored(grey, threshold(grey));
+  std::vector<cv::KeyPoint> keypoints;
+  cv::FAST(grey, keypoints, threshold(grey), /*nonmaxSuppression=*/true,
+           cv::FastFeatureDetector::TYPE_9_16);
+  return keypoints;
 }
 
 }  // namespace lcs

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -62,9 +63,8 @@ int crowded_up_to(const cv::Mat1b& grey, int least) {
   const std::size_t enough = grey.total() / kPixelsEach;
   if (corners.size() <= enough) return 0;
   const auto last = corners.begin() + static_cast<std::ptrdiff_t>(enough);
-  std::nth_element(corners.begin(), last, corners.end(), [](const auto& a, const auto& b) {
-    return a.response > b.response;  // the highest threshold that still detects the corner
-  });
+  // The response is the highest threshold that still detects the corner.
+  std::ranges::nth_element(corners, last, std::ranges::greater(), &cv::KeyPoint::response);
   return static_cast<int>(last->response);
 }
 

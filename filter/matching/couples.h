@@ -33,14 +33,14 @@ class CoupleSorter {
     lcs::make_room(sorted_, couples);
   }
 
-  /// \param most the costs are from 0 to this one.
-  void sort(std::vector<Couple>& couples, float most) {
+  /// \param most, least the costs lie between them.
+  void sort(std::vector<Couple>& couples, float most, float least = 0) {
     // By counting as many even bins of costs as there are couples, because a comparison of costs at
     // random is mispredicted half of the time. The couples of a bin are few, and compared.
     const std::size_t count = couples.size();
-    const float per_cost = static_cast<float>(count) / most;
+    const float per_cost = most > least ? static_cast<float>(count) / (most - least) : 0;
     const auto bin = [&](const Couple& couple) {
-      return std::min(static_cast<std::uint32_t>(couple.cost * per_cost),
+      return std::min(static_cast<std::uint32_t>((couple.cost - least) * per_cost),
                       static_cast<std::uint32_t>(count));
     };
     refill(first_, count + 3);

@@ -80,11 +80,6 @@ class PointGrid {
   /// Index of the point at a place in the order of the cells.
   int index_at(std::size_t place) const { return placed_[place].index; }
 
-  /// px^2: squared distance of x from the point at a place in the order of the cells.
-  double distance2(std::size_t place, const Vec2& x) const {
-    return (placed_[place].location - x).squaredNorm();
-  }
-
   /// Places of points and their squared distances from another, px^2; room for a search.
   struct Found {
     std::vector<int> places;
@@ -127,8 +122,20 @@ class PointGrid {
   /// Calls `visit(index, squared distance)` for each point within `radius_px` of x, px.
   template <typename Visit>
   void visit_within(const Vec2& x, double radius_px, Visit&& visit) const {
+    const double radius2 = radius_px * radius_px;
+    // Filters in batches without a branch, which would often be mispredicted.
+    std::array<Neighbour, 32> near;
     visit_runs(x, radius_px, [&](std::size_t first, std::size_t last) {
-      visit_near(first, last, x, radius_px * radius_px, visit);
+      while (first < last) {
+        const std::size_t end = std::min(last, first + near.size());
+        std::size_t count = 0;
+        for (; first < end; ++first) {
+          const double distance2 = (placed_[first].location - x).squaredNorm();
+          near[count] = {distance2, placed_[first].index};
+          count += distance2 <= radius2;
+        }
+        for (std::size_t i = 0; i < count; ++i) visit(near[i].index, near[i].distance2);
+      }
     });
   }
 
@@ -154,33 +161,18 @@ class PointGrid {
   }
 
   /// Finds the `count` nearest points to x within `radius_px` that `accept(index)` accepts, in
-  /// order. Searches outwards in rings of cells, so it visits few points in dense areas.
+  /// order.
   template <typename Accept>
   void nearest(const Vec2& x, double radius_px, std::size_t count, Accept&& accept,
                std::vector<Neighbour>& found) const {
     found.clear();
-    if (count == 0) return;
-    const int c = column(x.x()), r = row(x.y());
-    const int rings = std::max(std::max(c, columns_ - 1 - c), std::max(r, rows_ - 1 - r));
-    const auto rank = [&](int row, int from, int to) {
-      if (row < 0 || row >= rows_ || from >= columns_ || to < 0) return;
-      rank_cells(cell(std::max(from, 0), row), cell(std::min(to, columns_ - 1), row), x,
-                 radius_px * radius_px, count, accept, found);
-    };
-    // The cell of x and its neighbours are always searched.
-    for (int v = r - 1; v <= r + 1; ++v) rank(v, c - 1, c + 1);
-    for (int ring = 2; ring <= rings; ++ring) {
-      // All points nearer than this are ranked; reduced slightly for rounding of cells.
-      const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
-      if (seen_px > radius_px) return;
-      if (found.size() == count && found.back().distance2 < seen_px * seen_px) return;
-      rank(r - ring, c - ring, c + ring);
-      for (int v = r - ring + 1; v < r + ring; ++v) {
-        rank(v, c - ring, c - ring);
-        rank(v, c + ring, c + ring);
-      }
-      rank(r + ring, c - ring, c + ring);
-    }
+    make_room(found, size());
+    visit_within(x, radius_px, [&](int index, double distance2) {
+      if (accept(index)) found.push_back({distance2, index});
+    });
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(count, found.size()));
+    std::partial_sort(found.begin(), end, found.end());
+    found.erase(end, found.end());
   }
 
  private:
@@ -195,44 +187,6 @@ class PointGrid {
   int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
   static int clamped(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
-  }
-
-  /// Visits the points of a range of `placed_` within the radius of x. Filters in batches without a
-  /// branch, which would often be mispredicted.
-  template <typename Visit>
-  void visit_near(std::size_t first, std::size_t last, const Vec2& x, double radius2,
-                  Visit&& visit) const {
-    std::array<Neighbour, 32> near;
-    while (first < last) {
-      const std::size_t end = std::min(last, first + near.size());
-      std::size_t count = 0;
-      for (; first < end; ++first) {
-        const double distance2 = (placed_[first].location - x).squaredNorm();
-        near[count] = {distance2, placed_[first].index};
-        count += distance2 <= radius2;
-      }
-      for (std::size_t i = 0; i < count; ++i) visit(near[i].index, near[i].distance2);
-    }
-  }
-
-  /// Inserts the points of some cells of a row into `found`.
-  template <typename Accept>
-  void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
-                  std::size_t count, Accept&& accept, std::vector<Neighbour>& found) const {
-    if (found.size() == count) farthest2 = found.back().distance2;
-    for (std::size_t k = first_[first]; k < first_[last + 1]; ++k) {
-      const Neighbour here{(placed_[k].location - x).squaredNorm(), placed_[k].index};
-      if (here.distance2 > farthest2 || !accept(here.index)) continue;
-      if (found.size() < count) {
-        found.push_back(here);
-      } else if (!(here < found.back())) {
-        continue;
-      }
-      std::size_t place = found.size() - 1;
-      for (; place > 0 && here < found[place - 1]; --place) found[place] = found[place - 1];
-      found[place] = here;
-      if (found.size() == count) farthest2 = found.back().distance2;
-    }
   }
 
   /// Visits the square about x, from a row of cells on. To cut its corners off would take longer.

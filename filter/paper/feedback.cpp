@@ -10,9 +10,9 @@ constexpr double kCell_px = 32;
 
 }  // namespace
 
-const Feedback::Regions& Feedback::regions(const std::vector<Circle>& normal_circles,
-                                           const std::vector<Square>& squares) {
-  auto& [ignored, collectors] = regions_;
+void Feedback::set_regions(const std::vector<Circle>& normal_circles,
+                           const std::vector<Square>& squares, PaperLayers& layers) const {
+  auto& [ignored, collectors, chains] = layers;
   ignored.clear();
   collectors.clear();
   make_room(collectors, normal_circles.capacity());  // every circle may become a collector
@@ -28,7 +28,6 @@ const Feedback::Regions& Feedback::regions(const std::vector<Circle>& normal_cir
     if (!square.ignoring) continue;
     ignored.push_back({IgnoreRegion::Shape::rectangle, square.location, square.half_size});
   }
-  return regions_;
 }
 
 /// Searches from the collectors, as each contains few corners.

@@ -9,6 +9,7 @@
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
 #include "filter/types/layers.h"
+#include "filter/types/paper_layers.h"
 #include "filter/types/trust.h"
 
 namespace lcs::paper {
@@ -17,16 +18,10 @@ class Feedback {
  public:
   explicit Feedback(const TrustRanks& circle_trust) : circle_trust_(circle_trust) {}
 
-  struct Regions {
-    std::vector<IgnoreRegion> ignored;  ///< psi
-    std::vector<Collector> collectors;  ///< lambda
-  };
-
-  /// The regions of a frame, from its predicted circles and squares. Those that reached Tr_m become
-  /// ignored regions; other trusted normal circles become collectors.
-  /// \return valid until the next call.
-  const Regions& regions(const std::vector<Circle>& normal_circles,
-                         const std::vector<Square>& squares);
+  /// Sets psi and lambda of a frame, from its predicted circles and squares. Those that reached
+  /// Tr_m become ignored regions; other trusted normal circles become collectors.
+  void set_regions(const std::vector<Circle>& normal_circles, const std::vector<Square>& squares,
+                   PaperLayers& layers) const;
 
   /// The index of each corner's collector, -1: none. Overlapping collectors: the nearest one, and
   /// of equally near ones the first.
@@ -35,7 +30,6 @@ class Feedback {
 
  private:
   TrustRanks circle_trust_;
-  Regions regions_;
   PointGrid grid_;               // of chi
   std::vector<double> nearest_;  // of each corner: distance from its collector, px
   std::vector<int> groups_;

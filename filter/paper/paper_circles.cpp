@@ -19,11 +19,8 @@ bool within(double angle_rad, double about_rad, double epsilon_rad) {
 
 }  // namespace
 
-const BothKinds<Circle>& PaperCircles::predict(const BothKinds<Circle>& before,
-                                               const MotionField& field) {
-  copy_over(before.normal, predicted_.normal);
-  copy_over(before.rebel, predicted_.rebel);
-  for (Circle& circle : predicted_.normal) {
+void PaperCircles::predict(BothKinds<Circle>& circles, const MotionField& field) {
+  for (Circle& circle : circles.normal) {
     const Vec2 rotated = field.rotated(circle.location);
     if (field.moving()) circle.depth_ratio = field.advanced_ratio(circle.depth_ratio);
     circle.location = field.translated(rotated, circle.depth_ratio);
@@ -33,13 +30,12 @@ const BothKinds<Circle>& PaperCircles::predict(const BothKinds<Circle>& before,
     const Vec2 along = field.direction(circle.location);
     if (!along.isZero()) circle.angle = angle_of(along);
   }
-  for (Circle& circle : predicted_.rebel) {
+  for (Circle& circle : circles.rebel) {
     circle.angle = field.turned(circle.angle, circle.location, circle.origin);
     circle.origin = field.rotated(circle.origin);
     circle.location =
         field.rotated(circle.location) + circle.speed * field.dt_s() * unit_vector(circle.angle);
   }
-  return predicted_;
 }
 
 /// Similar direction, and similar depth (normal) or speed (rebel).
@@ -68,9 +64,8 @@ void PaperCircles::group(const std::vector<Edge>& edges, const MotionField& fiel
   const bool rebels = !edges.empty() && edges.front().rebel;
   const double reach = rebels ? parameters_.reach_r : parameters_.reach_n;
   grid_.build(points_, reach);
-  std::ranges::sort(seeds_, [](const Seed& a, const Seed& b) {
-    return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
-  });
+  std::ranges::sort(seeds_, {},
+                    [](const Seed& s) { return std::tuple(-s.trust, -s.age, s.index); });
   grouped_.clear();
   groups_.clear();
   for (const Seed& seed : seeds_) {
@@ -152,9 +147,8 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
       pairs_.push_back({share, distance, c, g, aligned});
     }
   }
-  std::ranges::sort(pairs_, [](const Pair& a, const Pair& b) {
-    return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
-           std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
+  std::ranges::sort(pairs_, {}, [](const Pair& pair) {
+    return std::tuple(!pair.aligned, -pair.overlap, pair.distance, pair.circle, pair.group);
   });
   // Sized by edges, an upper bound of the number of groups that is steady earlier.
   refill(circle_of_group_, edges.size(), -1);
@@ -211,22 +205,17 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
   }
 }
 
-const PaperCircles::Result& PaperCircles::update(const BothKinds<Edge>& edges,
-                                                 const BothKinds<Circle>& predicted,
-                                                 std::span<const IgnoreRegion> psi,
-                                                 const MotionField& field) {
-  auto& [circles, of_edges] = result_;
-  copy_over(predicted.normal, circles.normal);
-  copy_over(predicted.rebel, circles.rebel);
+void PaperCircles::update(const BothKinds<Edge>& edges, std::span<const IgnoreRegion> psi,
+                          const MotionField& field, CircleExpert::Result& result) {
+  auto& [circles, of_edges] = result;
   update_kind(edges.normal, psi, field, circles.normal, of_edges.normal);
   update_kind(edges.rebel, psi, field, circles.rebel, of_edges.rebel);
-  if (!ignore_) return result_;
+  if (!ignore_) return;
   // Rebels are never ignored. An ignored circle loses trust, so that it is observed again.
   for (Circle& circle : circles.normal) {
     circle.ignoring = circle.trust >= parameters_.trust.maximum;
     if (circle.ignoring) circle.trust = parameters_.trust.after_ignoring();
   }
-  return result_;
 }
 
 }  // namespace lcs::paper

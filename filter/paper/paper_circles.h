@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "filter/circles/circle_expert.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/matching/point_grid.h"
 #include "filter/paper/parameters.h"
@@ -24,25 +25,12 @@ class PaperCircles {
         corner_noise_px_(corner_noise_px),
         ignore_(ignore) {}
 
-  struct Result {
-    BothKinds<Circle> circles;
-    BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: none
-  };
-
   /// Predicts the circles of the last frame to this one.
-  /// \return valid until the next call.
-  const BothKinds<Circle>& predict(const BothKinds<Circle>& before, const MotionField& field);
+  static void predict(BothKinds<Circle>& circles, const MotionField& field);
 
-  /// Groups the edges. Matches, estimates, creates and deletes circles of both kinds.
-  /// \return valid until the next call.
-  const Result& update(const BothKinds<Edge>& edges, const BothKinds<Circle>& predicted,
-                       std::span<const IgnoreRegion> psi, const MotionField& field);
-
-  /// The result of the last update; empty before the first.
-  const Result& last() const { return result_; }
-
-  /// Empties the result of the last update.
-  void forget() { result_ = {}; }
+  /// Groups the edges. Matches, estimates, creates and deletes predicted circles of both kinds.
+  void update(const BothKinds<Edge>& edges, std::span<const IgnoreRegion> psi,
+              const MotionField& field, CircleExpert::Result& result);
 
  private:
   /// Mean circle of a group of edges, C_m.
@@ -80,8 +68,6 @@ class PaperCircles {
   double corner_noise_px_;
   bool ignore_;
   Id next_id_ = 1;
-  BothKinds<Circle> predicted_;
-  Result result_;
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
   PointGrid grid_;

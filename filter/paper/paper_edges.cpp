@@ -19,15 +19,14 @@ constexpr double kLeastDisplacement_px = 0.2;
 void PaperEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
   refill(match_of_edge_, edges, -1);
   refill(match_of_corner_, corners, -1);
-  order_.visit(
-      pairs_,
-      [&](const Couple& pair) {
-        return match_of_edge_[pair.a] >= 0 || match_of_corner_[pair.b] >= 0;
-      },
-      [&](const Couple& pair) {
-        match_of_edge_[pair.a] = pair.b;
-        match_of_corner_[pair.b] = pair.a;
-      });
+  if (pairs_.empty()) return;
+  const auto [least, most] = std::ranges::minmax(pairs_, {}, &Couple::cost);
+  sorter_.sort(pairs_, most.cost, least.cost);
+  for (const Couple& pair : pairs_) {
+    if (match_of_edge_[pair.a] >= 0 || match_of_corner_[pair.b] >= 0) continue;
+    match_of_edge_[pair.a] = pair.b;
+    match_of_corner_[pair.b] = pair.a;
+  }
 }
 
 void PaperEdges::coast(Edge& edge, std::span<const IgnoreRegion> psi) const {
@@ -48,11 +47,8 @@ Edge PaperEdges::make_normal(const Vec2& x, double depth_ratio, double mu,
   return edge;
 }
 
-const EdgeLayer& PaperEdges::predict(const EdgeLayer& before, const MotionField& field) {
-  copy_over(before.edges.normal, predicted_.edges.normal);
-  copy_over(before.edges.rebel, predicted_.edges.rebel);
-  copy_over(before.chains, predicted_.chains);
-  for (Edge& edge : predicted_.edges.normal) {
+void PaperEdges::predict(EdgeLayer& layer, const MotionField& field) {
+  for (Edge& edge : layer.edges.normal) {
     edge.rotated = field.rotated(edge.location);
     // V~ = (V + V_v) / 2; no depth information while the camera stands still.
     if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
@@ -62,17 +58,16 @@ const EdgeLayer& PaperEdges::predict(const EdgeLayer& before, const MotionField&
     const Vec2 along = field.direction(edge.predicted);
     if (!along.isZero()) edge.angle = angle_of(along);
   }
-  for (Edge& edge : predicted_.edges.rebel) {
+  for (Edge& edge : layer.edges.rebel) {
     edge.rotated = field.rotated(edge.location);
     edge.origin = field.rotated(edge.origin);
     const Vec2 path = edge.rotated - edge.origin;
     if (!path.isZero()) edge.angle = angle_of(path);
     edge.predicted = edge.rotated + edge.speed * field.dt_s() * unit_vector(edge.angle);
   }
-  for (Chain& chain : predicted_.chains) {
+  for (Chain& chain : layer.chains) {
     for (int i = 0; i < chain.count; ++i) chain.sightings[i] = field.rotated(chain.sightings[i]);
   }
-  return predicted_;
 }
 
 bool PaperEdges::in_span(const Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -123,8 +118,8 @@ void PaperEdges::came_to(int corner, Reason reason) {
   result_.reasons[corner] = std::max(result_.reasons[corner], reason);
 }
 
-void PaperEdges::assign(const EdgeLayer& predicted, const Chi& chi, const MotionField& field) {
-  const auto& [normal_edges, rebel_edges] = predicted.edges;
+void PaperEdges::assign(const BothKinds<Edge>& edges, const Chi& chi, const MotionField& field) {
+  const auto& [normal_edges, rebel_edges] = edges;
   const int normals = static_cast<int>(normal_edges.size());
   const int rebels = static_cast<int>(rebel_edges.size());
   const auto cost = [&](const Edge& edge, double distance2) {
@@ -215,8 +210,8 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
 
 /// Starts a new normal edge at each corner that no edge took. The corner also goes to alpha, except
 /// in case xi_1: there it joins the layer of a normal edge that lost its own corner.
-void PaperEdges::classify_rest(const Chi& chi, const MotionField& field) {
-  const std::vector<Edge>& normal_edges = result_.layer.edges.normal;
+void PaperEdges::classify_rest(const std::vector<Edge>& normal_edges, const Chi& chi,
+                               const MotionField& field) {
   to_alpha_.assign(chi.size(), 0);
   to_normal_.assign(chi.size(), 0);
   predictions_.clear();
@@ -260,9 +255,9 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
 
 /// Extends rows of two sightings by a third, near their line and off the field, to rebel edges: at
 /// most one row per corner and per shared sighting.
-void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
-  const std::vector<Chain>& chains = result_.layer.chains;
-  std::vector<Edge>& rebels = result_.layer.edges.rebel;
+void PaperEdges::complete_chains(EdgeLayer& layer, const Chi& chi, const MotionField& field) {
+  const std::vector<Chain>& chains = layer.chains;
+  std::vector<Edge>& rebels = layer.edges.rebel;
   pairs_.clear();
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const Chain& chain = chains[i];
@@ -302,9 +297,10 @@ void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
 
 /// Extends rows of one sighting to rows of two; the remaining corners start new rows. A row without
 /// a continuation is deleted, so a row lasts at most three frames.
-void PaperEdges::branch_chains(const Chi& chi, const MotionField& field) {
+void PaperEdges::branch_chains(std::vector<Chain>& chains, const Chi& chi,
+                               const MotionField& field) {
   grown_.clear();
-  for (const Chain& chain : result_.layer.chains) {
+  for (const Chain& chain : chains) {
     if (chain.count != 1) continue;
     corner_grid_.nearest(
         chain.sightings[0], parameters_.alpha_reach, std::size_t(parameters_.alpha_branches),
@@ -322,18 +318,16 @@ void PaperEdges::branch_chains(const Chi& chi, const MotionField& field) {
     if (!to_alpha_[c]) continue;
     grown_.push_back({.sightings = {chi.locations[c], chi.locations[c]}, .count = 1});
   }
+  chains.swap(grown_);
 }
 
-const PaperEdges::Result& PaperEdges::update(const EdgeLayer& predicted, const Chi& chi,
+const PaperEdges::Result& PaperEdges::update(EdgeLayer& layer, const Chi& chi,
                                              std::span<const int> groups,
                                              std::span<const IgnoreRegion> psi,
                                              const MotionField& field) {
-  auto& [edges, chains] = result_.layer;
-  copy_over(predicted.edges.normal, edges.normal);
-  copy_over(predicted.edges.rebel, edges.rebel);
-  copy_over(predicted.chains, chains);
+  auto& [edges, chains] = layer;
   corner_grid_.build(chi.locations, parameters_.mu_max);
-  assign(predicted, chi, field);
+  assign(edges, chi, field);
 
   const std::size_t normals = edges.normal.size();
   for (std::size_t i = 0; i < normals; ++i) {
@@ -348,12 +342,11 @@ const PaperEdges::Result& PaperEdges::update(const EdgeLayer& predicted, const C
     edge.corner = match_of_edge_[normals + i];
     if (edge.corner >= 0) update_rebel(edge, chi.locations[edge.corner], field);
   }
-  classify_rest(chi, field);
+  classify_rest(edges.normal, chi, field);
   // Sightings at the same time form no chain.
-  if (field.dt_s() > 0) complete_chains(chi, field);
+  if (field.dt_s() > 0) complete_chains(layer, chi, field);
   if (field.dt_s() > 0 || chains.empty()) {
-    branch_chains(chi, field);
-    chains.swap(grown_);
+    branch_chains(chains, chi, field);
   } else {
     for (std::size_t c = 0; c < chi.size(); ++c) {
       if (to_alpha_[c]) result_.reasons[c] = Reason::no_time;

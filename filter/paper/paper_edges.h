@@ -8,8 +8,8 @@
 
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
+#include "filter/matching/couples.h"
 #include "filter/matching/point_grid.h"
-#include "filter/paper/cheapest_first.h"
 #include "filter/paper/parameters.h"
 #include "filter/types/frame_result.h"
 
@@ -39,26 +39,18 @@ class PaperEdges {
       : camera_(camera), parameters_(parameters), trust_(trust) {}
 
   struct Result {
-    EdgeLayer layer;
     std::vector<Verdict> verdicts;  ///< of each corner of chi
     std::vector<Reason> reasons;    ///< of each corner of chi
   };
 
   /// Predicts edges and chains of the last frame to this one.
-  /// \return valid until the next call.
-  const EdgeLayer& predict(const EdgeLayer& before, const MotionField& field);
+  static void predict(EdgeLayer& layer, const MotionField& field);
 
-  /// Matches, estimates, updates trust, deletes and creates edges.
+  /// Matches, estimates, updates trust, deletes and creates predicted edges.
   /// \param groups index of the collector of each corner of chi, -1: none (`Feedback`).
   /// \return valid until the next call.
-  const Result& update(const EdgeLayer& predicted, const Chi& chi, std::span<const int> groups,
+  const Result& update(EdgeLayer& layer, const Chi& chi, std::span<const int> groups,
                        std::span<const IgnoreRegion> psi, const MotionField& field);
-
-  /// The result of the last update; empty before the first.
-  const Result& last() const { return result_; }
-
-  /// Empties the result of the last update.
-  void forget() { result_ = {}; }
 
   /// The case of corner `x` for a predicted normal edge.
   Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
@@ -68,15 +60,16 @@ class PaperEdges {
   bool plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const;
   double rebel_reach(const Edge& edge, const MotionField& field) const;
   bool matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const;
-  void assign(const EdgeLayer& predicted, const Chi& chi, const MotionField& field);
+  void assign(const BothKinds<Edge>& edges, const Chi& chi, const MotionField& field);
   void came_to(int corner, Reason reason);
   void update_normal(Edge& edge, const Chi& chi, std::span<const int> groups,
                      const MotionField& field);
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field);
   double spread(const Edge& edge, const Chi& chi, std::span<const int> groups) const;
-  void classify_rest(const Chi& chi, const MotionField& field);
-  void complete_chains(const Chi& chi, const MotionField& field);
-  void branch_chains(const Chi& chi, const MotionField& field);
+  void classify_rest(const std::vector<Edge>& normal_edges, const Chi& chi,
+                     const MotionField& field);
+  void complete_chains(EdgeLayer& layer, const Chi& chi, const MotionField& field);
+  void branch_chains(std::vector<Chain>& chains, const Chi& chi, const MotionField& field);
   double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
   Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
 
@@ -94,7 +87,6 @@ class PaperEdges {
   PaperEdgeParameters parameters_;
   TrustRanks trust_;
   Id next_id_ = 1;
-  EdgeLayer predicted_;
   Result result_;
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
@@ -102,7 +94,7 @@ class PaperEdges {
   /// Pairs of an edge and a corner inside its gate, with their cost. Edge indices count normal
   /// edges first; corner indices refer to chi.
   std::vector<Couple> pairs_;
-  CheapestFirst order_;
+  CoupleSorter sorter_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   PointGrid edge_grid_;
   std::vector<Vec2> predictions_;

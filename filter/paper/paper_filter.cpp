@@ -38,6 +38,9 @@ struct PaperFilter::Impl {
   PaperEdges edge_expert;
   PaperCircles circle_expert;
   PaperSquares square_expert;
+  EdgeLayer edges;
+  CircleExpert::Result circles;
+  std::vector<Square> squares;
   FrameResult result;
 };
 
@@ -47,37 +50,32 @@ const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corn
   Stopwatch<> watch;
   const std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
-    edge_expert.forget();
-    circle_expert.forget();
-    square_expert.forget();
+    edges = {};
+    circles = {};
+    squares.clear();
   }
   const MotionField field(camera, motion.value_or(EgoMotion{}), parameters.field);
-  const EdgeLayer& predicted_edges = edge_expert.predict(edge_expert.last().layer, field);
-  const BothKinds<Circle>& predicted_circles =
-      circle_expert.predict(circle_expert.last().circles, field);
-  const std::vector<Square>& predicted_squares = square_expert.predict(square_expert.last(), field);
+  PaperEdges::predict(edges, field);
+  PaperCircles::predict(circles.circles, field);
+  PaperSquares::predict(squares, field);
 
-  const auto& [psi, lambda] = feedback.regions(predicted_circles.normal, predicted_squares);
+  auto& [psi, lambda, alpha] = result.paper;
+  feedback.set_regions(circles.circles.normal, squares, result.paper);
   const Chi& chi = line.collect(corners_px, signatures, psi);
   count_rejected(chi, diagnostics);
   const std::vector<int>& groups = feedback.group(lambda, chi);
   result.times.line_ms = watch.lap_ms();
 
-  const PaperEdges::Result& edges = edge_expert.update(predicted_edges, chi, groups, psi, field);
-  const PaperCircles::Result& circles =
-      circle_expert.update(edges.layer.edges, predicted_circles, psi, field);
+  const auto& [verdicts, reasons] = edge_expert.update(edges, chi, groups, psi, field);
+  circle_expert.update(edges.edges, psi, field, circles);
   result.times.circle_ms = watch.lap_ms();
 
-  const std::vector<Square>& squares =
-      square_expert.update(circles.circles, predicted_squares, psi, field);
+  square_expert.update(circles.circles, psi, field, squares);
   result.times.square_ms = watch.lap_ms();
 
-  assign_verdicts(chi, edges.verdicts, edges.reasons, result);
-  Layers& layers = result.layers;
-  set_layers(edges.layer.edges, circles.circles, circles.of_edges, squares, layers);
-  copy_over(psi, layers.ignored);
-  copy_over(lambda, layers.collectors);
-  copy_over(edges.layer.chains, layers.chains);
+  assign_verdicts(chi, verdicts, reasons, result);
+  set_layers(edges.edges, circles, squares, result.layers);
+  copy_over(edges.chains, alpha);
   return result;
 }
 

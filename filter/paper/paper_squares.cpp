@@ -59,28 +59,22 @@ double overlap_percent(const Square& a, const Square& b) {
   return std::min(100.0, 100 * common / smaller);
 }
 
-const std::vector<Square>& PaperSquares::predict(const std::vector<Square>& before,
-                                                 const MotionField& field) {
-  copy_over(before, predicted_);
-  for (Square& square : predicted_) {
+void PaperSquares::predict(std::vector<Square>& squares, const MotionField& field) {
+  for (Square& square : squares) {
     if (square.rebel_circles > 0) {
       carry_on(square, field);
     } else {
       expand(square, field);
     }
   }
-  return predicted_;
 }
 
-const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles,
-                                                const std::vector<Square>& predicted,
-                                                std::span<const IgnoreRegion> psi,
-                                                const MotionField& field) {
-  copy_over(predicted, squares_);
-  copy_over(couples_.layer(circles, field), means_);
+void PaperSquares::update(const BothKinds<Circle>& circles, std::span<const IgnoreRegion> psi,
+                          const MotionField& field, std::vector<Square>& squares) {
+  layer(circles, field);
   pairs_.clear();
-  for (std::size_t s = 0; s < squares_.size(); ++s) {
-    const Square& square = squares_[s];
+  for (std::size_t s = 0; s < squares.size(); ++s) {
+    const Square& square = squares[s];
     for (std::size_t m = 0; m < means_.size(); ++m) {
       const double rho_s = overlap_percent(square, means_[m]);
       if (rho_s <= parameters_.rho_c) continue;
@@ -90,17 +84,16 @@ const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles
       pairs_.push_back({rho_s, (square.location - means_[m].location).norm(), s, m, aligned});
     }
   }
-  std::ranges::sort(pairs_, [](const Pair& a, const Pair& b) {
-    return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
-           std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
+  std::ranges::sort(pairs_, {}, [](const Pair& pair) {
+    return std::tuple(!pair.aligned, pair.distance, -pair.overlap, pair.square, pair.mean);
   });
-  refill(matched_, squares_.size());
+  refill(matched_, squares.size());
   refill(mean_used_, means_.size());
   const TrustRanks& ranks = parameters_.trust;
   for (const Pair& pair : pairs_) {
     if (matched_[pair.square] || mean_used_[pair.mean]) continue;
     matched_[pair.square] = mean_used_[pair.mean] = 1;
-    Square& square = squares_[pair.square];
+    Square& square = squares[pair.square];
     const Square& mean = means_[pair.mean];
     // Circles that coast in psi keep their square alive, but are no evidence.
     const bool unseen = inside_any(psi, square.location);
@@ -115,9 +108,9 @@ const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles
     ++square.age;
     if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
   }
-  for (std::size_t s = 0; s < squares_.size(); ++s) {
+  for (std::size_t s = 0; s < squares.size(); ++s) {
     if (matched_[s]) continue;
-    Square& square = squares_[s];
+    Square& square = squares[s];
     ++square.age;
     square.circles = 0;
     if (!inside_any(psi, square.location)) --square.trust;
@@ -127,19 +120,18 @@ const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles
     Square square = means_[m];
     square.id = next_id_++;
     square.trust = ranks.initial_square();
-    squares_.push_back(square);
+    squares.push_back(square);
   }
-  std::erase_if(squares_, [&](const Square& square) {
+  std::erase_if(squares, [&](const Square& square) {
     const Vec2& x = square.location;
     return !ranks.alive(square.trust) || x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px ||
            x.y() > camera_.height_px;
   });
-  if (!ignore_) return squares_;
-  for (Square& square : squares_) {
+  if (!ignore_) return;
+  for (Square& square : squares) {
     square.ignoring = square.trust >= ranks.maximum && square.rebel_circles == 0;
     if (square.ignoring) square.trust = ranks.after_ignoring();
   }
-  return squares_;
 }
 
 namespace {
@@ -164,12 +156,12 @@ bool parts(const Circle& between, const Circle& a, const Circle& b) {
 }
 
 /// V_b - eps_v <= V_a <= V_b + eps_v, on ratios V / V_v, which are equal at equal depth.
-bool CoupleLayering::like_speed(const Circle& a, const Circle& b) const {
+bool PaperSquares::like_speed(const Circle& a, const Circle& b) const {
   return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v;
 }
 
 /// Case 1: directions at a right angle (the corners of a square about O). Case 2: aligned.
-bool CoupleLayering::couple(const Circle& a, const Circle& b) const {
+bool PaperSquares::couple(const Circle& a, const Circle& b) const {
   if (!like_speed(a, b)) return false;
   if (!parameters_.mix_kinds && a.rebel != b.rebel) return false;
   const double turn = angle_between(a.angle, b.angle);
@@ -177,7 +169,7 @@ bool CoupleLayering::couple(const Circle& a, const Circle& b) const {
          turn <= parameters_.delta_beta_2 + parameters_.epsilon_beta_2;
 }
 
-int CoupleLayering::furthest_partner(std::size_t a, double d_t) const {
+int PaperSquares::furthest_partner(std::size_t a, double d_t) const {
   int best = -1;
   double furthest = -1;
   for (std::size_t b = 0; b < circles_.size(); ++b) {
@@ -191,7 +183,7 @@ int CoupleLayering::furthest_partner(std::size_t a, double d_t) const {
   return best;
 }
 
-Square CoupleLayering::mean_square(std::size_t a, const MotionField& field) const {
+Square PaperSquares::mean_square(std::size_t a, const MotionField& field) const {
   const Circle& circle = circles_[a];
   Square square;
   Vec2 low = circle.location.array() - circle.radius;
@@ -223,7 +215,7 @@ Square CoupleLayering::mean_square(std::size_t a, const MotionField& field) cons
 }
 
 /// Adds to C_b the circles inside the couple's square with similar motion.
-void CoupleLayering::add_minor_circles(std::size_t a, double d_t, const MotionField& field) {
+void PaperSquares::add_minor_circles(std::size_t a, double d_t, const MotionField& field) {
   const Square square = mean_square(a, field);
   for (std::size_t c = 0; c < circles_.size(); ++c) {
     if (used_[c] || c == a || c == partners_.front()) continue;
@@ -237,19 +229,17 @@ void CoupleLayering::add_minor_circles(std::size_t a, double d_t, const MotionFi
   }
 }
 
-/// Forms couples of circles, furthest first, with the circles inside them. A circle without a
-/// partner is a layer by itself.
-const std::vector<Square>& CoupleLayering::layer(const BothKinds<Circle>& circles,
-                                                 const MotionField& field) {
+/// Forms couples of similar circles, furthest first, with the circles inside them. A circle without
+/// a partner is a layer by itself.
+void PaperSquares::layer(const BothKinds<Circle>& circles, const MotionField& field) {
   circles_.clear();
   for (const auto* kind : {&circles.normal, &circles.rebel}) {
     for (const Circle& circle : *kind) {
       if (circle.members > 0) circles_.push_back(circle);
     }
   }
-  std::ranges::stable_sort(circles_, [](const Circle& a, const Circle& b) {
-    return std::tuple(-a.trust, -a.members) < std::tuple(-b.trust, -b.members);
-  });
+  std::ranges::stable_sort(circles_, {},
+                           [](const Circle& c) { return std::tuple(-c.trust, -c.members); });
   refill(used_, circles_.size());
   means_.clear();
   const double diagonal = std::hypot(camera_.width_px, camera_.height_px);
@@ -276,7 +266,6 @@ const std::vector<Square>& CoupleLayering::layer(const BothKinds<Circle>& circle
     used_[a] = 1;
     for (const std::size_t b : partners_) used_[b] = 1;
   }
-  return means_;
 }
 
 }  // namespace lcs::paper

@@ -93,25 +93,16 @@ void Comers::recall(const std::vector<Edge>& edges) {
 
 void Comers::believe(std::span<const GroundEdge> seen, const CircleExpert::Result& circles,
                      const MotionField& field, const GroundView& ground, GapView& view) {
-  // Counting sort of the edges by circle; those without one come first.
-  const std::vector<int>& of_edges = circles.of_edges.normal;
-  const std::size_t count = circles.circles.normal.size();
-  refill(first_, count + 3);
-  for (const int c : of_edges) ++first_[c + 3];
-  for (std::size_t c = 3; c < first_.size(); ++c) first_[c] += first_[c - 1];
-  refill(grouped_, of_edges.size());
-  for (std::size_t i = 0; i < of_edges.size(); ++i) {
-    grouped_[first_[of_edges[i] + 2]++] = static_cast<int>(i);
-  }
+  const std::vector<Circle>& normal = circles.circles.normal;
+  members_.collect(circles.of_edges.normal, normal.size());
   refill(result_.odds, seen.size(), -std::numeric_limits<double>::infinity());
-  for (std::size_t c = 0; c < count; ++c) {
-    const std::span<const int> members(grouped_.data() + first_[c + 1],
-                                       grouped_.data() + first_[c + 2]);
+  for (std::size_t c = 0; c < normal.size(); ++c) {
+    const std::span<const int> members = members_.of(c);
     double before = 0;
     for (const int i : members) before += beliefs_[i].log_odds;
     before /= static_cast<double>(members.size());
-    const double now = log_odds(edge_.prior) +
-                       evidence(circles.circles.normal[c].id, members, seen, field, ground, view);
+    const double now =
+        log_odds(edge_.prior) + evidence(normal[c].id, members, seen, field, ground, view);
     const double belief = before + (now - before) / parameters_.memory;
     for (const int i : members) result_.odds[i] = beliefs_[i].log_odds = belief;
   }

@@ -38,20 +38,6 @@ RadialMovers::Result RadialMovers::step(const BothKinds<Edge>& edges,
   return result;
 }
 
-namespace {
-
-/// Sets the members of a circle and what follows from them.
-void take_members(Circle& circle, const std::vector<Edge>& edges, std::span<const int> members,
-                  const MotionField& field) {
-  Circle mean = mean_circle(edges, members, field);
-  mean.id = circle.id;
-  mean.trust = circle.trust;
-  mean.age = circle.age;
-  circle = mean;
-}
-
-}  // namespace
-
 const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
                                      const CircleExpert::Result& circles,
                                      std::span<const double> odds, std::span<const int> joined,
@@ -116,14 +102,12 @@ const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
   // Circles whose members changed.
   const auto renew = [&](std::vector<Circle>& kind, const std::vector<Edge>& of,
                          const std::vector<int>& circle_of_edge) {
+    members_.collect(circle_of_edge, kind.size());
     for (std::size_t c = 0; c < kind.size(); ++c) {
-      members_.clear();
-      for (std::size_t i = 0; i < of.size(); ++i) {
-        if (circle_of_edge[i] == static_cast<int>(c)) members_.push_back(static_cast<int>(i));
-      }
-      const bool is_same = kind[c].rebel == of[members_.front()].rebel &&
-                           kind[c].members == static_cast<int>(members_.size());
-      if (!is_same) take_members(kind[c], of, members_, field);
+      const std::span<const int> members = members_.of(c);
+      const bool is_same = kind[c].rebel == of[members.front()].rebel &&
+                           kind[c].members == static_cast<int>(members.size());
+      if (!is_same) kind[c] = mean_circle(of, members, field, kind[c]);
     }
   };
   renew(to_circles.circles.normal, to.normal, to_circles.of_edges.normal);

@@ -9,6 +9,7 @@
 #include "filter/circles/circle_expert.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
+#include "filter/matching/members.h"
 #include "filter/matching/point_grid.h"
 #include "filter/radial/comer_parameters.h"
 #include "filter/radial/ground_view.h"
@@ -72,7 +73,8 @@ class Comers {
   // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<Belief> next_;
   std::vector<double> depths_pm_;
-  std::vector<int> first_, grouped_, known_;
+  Members members_;  // of each normal circle
+  std::vector<int> known_;
   std::vector<Vec2> places_;
   PointGrid grid_;
 };
@@ -135,7 +137,8 @@ class Relabel {
  private:
   Result result_;
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  std::vector<int> left_, moved_, place_, members_;
+  std::vector<int> left_, moved_, place_;
+  Members members_;
 };
 
 class RadialMovers {

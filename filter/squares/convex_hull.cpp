@@ -18,9 +18,7 @@ std::pair<Vec2, Vec2> ConvexHull::box() const {
 
 /// From the leftmost point along the upper side to the rightmost, back along the lower side.
 void ConvexHull::make_chain() {
-  std::ranges::sort(points_, [](const Vec2& a, const Vec2& b) {
-    return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y());
-  });
+  std::ranges::sort(points_, {}, [](const Vec2& x) { return std::tuple(x.x(), x.y()); });
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
   chain_.clear();
   if (chain_.capacity() < points_.size() + 1) chain_.reserve(points_.capacity() + 1);

@@ -6,6 +6,7 @@
 
 #include "filter/circles/circle_expert.h"
 #include "filter/kinematics/motion_field.h"
+#include "filter/matching/members.h"
 #include "filter/squares/convex_hull.h"
 #include "filter/types/layers.h"
 
@@ -26,21 +27,15 @@ class SquareExpert {
                                   const MotionField& field);
 
  private:
-  /// Place of an edge, with the index of its circle.
-  struct Place {
-    int circle;
-    Vec2 location;
-  };
-
-  void gather(const std::vector<Edge>& edges, const std::vector<int>& circle_of_edge);
-  void box(const std::vector<Circle>& circles, const MotionField& field);
+  void box(const std::vector<Edge>& edges, const std::vector<Circle>& circles,
+           const std::vector<int>& circle_of_edge, const MotionField& field);
 
   Intrinsics camera_;
   SquareParameters parameters_;
   std::vector<Square> squares_;
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  std::vector<Place> places_;
+  Members members_;
   ConvexHull hull_;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -93,9 +94,7 @@ class Diagnostics {
 
   std::int64_t count(Fault fault) const { return counts_[static_cast<std::size_t>(fault)]; }
   std::int64_t total() const {
-    std::int64_t sum = 0;
-    for (const std::int64_t count : counts_) sum += count;
-    return sum;
+    return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
   }
 
   Diagnostics& operator+=(const Diagnostics& other) {

@@ -7,6 +7,7 @@
 
 #include "filter/types/gap.h"
 #include "filter/types/layers.h"
+#include "filter/types/paper_layers.h"
 #include "filter/types/reason.h"
 
 namespace lcs {
@@ -20,6 +21,7 @@ struct StageTimes {
 
 struct FrameResult {
   Layers layers;
+  PaperLayers paper;              ///< empty in the default filter
   std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
   std::vector<Reason> reasons;    ///< of each verdict; empty if the detector gives none
   StageTimes times;

@@ -8,8 +8,9 @@ using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
 namespace {
 
-inline __attribute__((always_inline)) Floats load(const float* from) {
-  Floats values;
+template <class Number>
+inline __attribute__((always_inline)) auto load(const Number* from) {
+  Number __attribute__((vector_size(4 * kLanes))) values;
   __builtin_memcpy(&values, from, sizeof values);
   return values;
 }
@@ -70,7 +71,8 @@ inline __attribute__((always_inline)) bool any(const Ints& lanes) {
 }
 
 /// The sum of the lanes, in an order that is the same on any machine.
-inline __attribute__((always_inline)) float total(const Floats& lanes) {
+template <class Lanes>
+inline __attribute__((always_inline)) auto total(const Lanes& lanes) {
   return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
          ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
 }
@@ -104,12 +106,6 @@ inline __attribute__((always_inline)) Floats exp_of(const Floats& argument) {
   p = p * r * r + r + 1.0F;
   const Ints power = (__builtin_convertvector(n, Ints) + 127) << 23;
   return p * (Floats)power;
-}
-
-inline __attribute__((always_inline)) Doubles load(const double* from) {
-  Doubles values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
 }
 
 inline __attribute__((always_inline)) Doubles root_of(const Doubles& x) {
@@ -296,9 +292,7 @@ void votes(const PairColumns& pairs, const int* neighbours, const float* weights
     votes[voice % kLanes] +=
         weights[voice] * (softplus(agrees - ln_spread - ln_clutter[voice]) - 0.6931471805599453F);
   }
-  store(((votes[0] + votes[1]) + (votes[2] + votes[3])) +
-            ((votes[4] + votes[5]) + (votes[6] + votes[7])),
-        sums);
+  store(total(votes), sums);
 }
 
 void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,

@@ -107,9 +107,8 @@ class TreeBuilder : public YAML::EventHandler {
       throw Error(value.where, "a key is " + std::string(kind_name(value.kind)) + "; give a name");
     }
     if (!map.keys.insert(value.text).second) {
-      const Entry* first = find(map.value, value.text);
-      throw Error(value.where, "key '" + value.text + "' is given twice, first in line " +
-                                   std::to_string(first->where.line) + "; remove one");
+      throw Error(value.where, "key '{}' is given twice, first in line {}; remove one", value.text,
+                  find(map.value, value.text)->where.line);
     }
     return {std::move(value.text), std::move(value.where), {}};
   }

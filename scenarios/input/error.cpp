@@ -6,18 +6,13 @@
 
 namespace lcs::input {
 
-namespace {
-
-/// "FILE:LINE: "; "" without a file.
-std::string place(const Source& where) {
-  if (where.file.empty()) return "";
-  return where.line > 0 ? fmt::format("{}:{}: ", where.file, where.line) : where.file + ": ";
+std::string text_of(const Source& where) {
+  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
 }
-
-}  // namespace
 
 Error::Error(const Source& where, const std::string& what_and_remedy)
     // printable, because a NUL would end the message.
-    : std::runtime_error(printable(place(where) + what_and_remedy)) {}
+    : std::runtime_error(printable(where.file.empty() ? what_and_remedy
+                                                      : text_of(where) + ": " + what_and_remedy)) {}
 
 }  // namespace lcs::input

@@ -17,6 +17,9 @@ struct Source {
   int line = 0;      ///< from 1; 0 means the whole file, or an assignment
 };
 
+/// "FILE:LINE", without the line if it is unknown.
+std::string text_of(const Source& where);
+
 /// The user's error message: "file:line: problem; remedy", without the line if it is unknown.
 class Error : public std::runtime_error {
  public:

@@ -40,21 +40,11 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, co
   if (::stat(file_.c_str(), &status) != 0) fail(errno);
   check(status);
   // Without O_NONBLOCK, open would block on a pipe created since the check.
-  descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(errno);
-  try {
-    if (::fstat(descriptor_, &status) != 0) fail(errno);
-    check(status);
-    note_input(file);
-    if (is_gzip_) buffer_.reserve(static_cast<std::size_t>(status.st_size) + kBlock);
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
-}
-
-InputFile::~InputFile() {
-  ::close(descriptor_);
+  descriptor_ = Descriptor(::open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!descriptor_.is_open() || ::fstat(descriptor_.get(), &status) != 0) fail(errno);
+  check(status);
+  note_input(file);
+  if (is_gzip_) buffer_.reserve(static_cast<std::size_t>(status.st_size) + kBlock);
 }
 
 void InputFile::fail(const std::string& what, std::string_view remedy) const {
@@ -145,7 +135,7 @@ bool InputFile::read_block() {
   buffer_.resize(before + kBlock);
   ssize_t got = 0;
   do {
-    got = ::read(descriptor_, buffer_.data() + before, kBlock);
+    got = ::read(descriptor_.get(), buffer_.data() + before, kBlock);
   } while (got < 0 && errno == EINTR);
   const int error = errno;
   buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
@@ -165,8 +155,8 @@ std::string InputFile::bytes_at(std::uint64_t offset, std::size_t count) const {
   std::string bytes(count, '\0');
   std::size_t read = 0;
   while (read < count) {
-    const ssize_t got =
-        ::pread(descriptor_, bytes.data() + read, count - read, static_cast<off_t>(offset + read));
+    const ssize_t got = ::pread(descriptor_.get(), bytes.data() + read, count - read,
+                                static_cast<off_t>(offset + read));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail(errno);
     if (got == 0) break;

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "scenarios/input/descriptor.h"
 #include "scenarios/input/error.h"
 
 namespace lcs::input {
@@ -32,9 +33,6 @@ class InputFile {
   InputFile(const std::filesystem::path& file, const FileKind& kind);
   /// \param where the place that names the file; errors cite it.
   InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where);
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   /// The bytes not yet read. \throws Error
   std::string bytes();
@@ -62,7 +60,7 @@ class InputFile {
   std::string file_;
   FileKind kind_;
   Source where_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   int line_ = 0;
   std::uint64_t read_ = 0;
   bool is_gzip_ = false;

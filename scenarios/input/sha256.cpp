@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "scenarios/input/descriptor.h"
 #include "scenarios/input/error.h"
 
 namespace lcs::input {
@@ -55,29 +56,27 @@ std::optional<std::string> sha256_of_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) {
     if (error == EIO) throw std::system_error(error, std::generic_category(), path.string());
     const bool are_too_many = error == EMFILE || error == ENFILE;
-    throw Error(
-        {path.string(), 0},
-        fmt::format("the file cannot be read ({}); {}", std::generic_category().message(error),
-                    are_too_many ? "raise the limit of open files (ulimit -n)"
-                                 : "check its permissions, and try again"));
+    throw Error({path.string(), 0}, "the file cannot be read ({}); {}",
+                std::generic_category().message(error),
+                are_too_many ? "raise the limit of open files (ulimit -n)"
+                             : "check its permissions, and try again");
   };
-  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (file < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
+  const Descriptor file(
+      ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!file.is_open() &&
+      (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
     return std::nullopt;
   }
-  if (file < 0) fail(errno);
+  if (!file.is_open()) fail(errno);
   struct stat status = {};
-  const bool is_regular = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  const bool is_regular = ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
   Sha256 digest;
-  int error = 0;
   std::vector<char> block(is_regular ? 1 << 20 : 0);
-  for (ssize_t got = 1; is_regular && got != 0 && error == 0;) {
-    got = ::read(file, block.data(), block.size());
+  for (ssize_t got = 1; is_regular && got != 0;) {
+    got = ::read(file.get(), block.data(), block.size());
     if (got > 0) digest.add(block.data(), static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) error = errno;
+    if (got < 0 && errno != EINTR) fail(errno);
   }
-  ::close(file);
-  if (error != 0) fail(error);
   return is_regular ? std::optional(digest.text()) : std::nullopt;
 }
 

@@ -41,7 +41,7 @@ TEST_F(ProvenanceTest, FilesReadAreThoseOfTheProcessWithoutItsOutputs) {
 TEST_F(ProvenanceTest, IsTheSameOnceItWasWritten) {
   Provenance provenance{.facts = {{"seed", 7}, {"settings", {"a=1"}}}, .read = {{"x.yaml", "ab"}}};
   provenance.facts["read_only"] = false;
-  Provenance::Json file{{"command", "lcs run"}, {"started", "now"}, {"wall_s", 1}, {"cpu_s", 2}};
+  Json file{{"command", "lcs run"}, {"started", "now"}, {"wall_s", 1}, {"cpu_s", 2}};
   file.update(provenance.json());
   const Provenance again = Provenance::from(file);
   EXPECT_EQ(again.facts, provenance.facts);

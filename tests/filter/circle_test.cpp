@@ -117,7 +117,9 @@ TEST_F(Circling, AtTheMaximumACircleIsIgnoredNextAndLookedAtAgainAfter) {
   EXPECT_TRUE(layers.normal_circles[0].ignoring);
   EXPECT_EQ(layers.normal_circles[0].trust, ranks.maximum - 2);
   Feedback feedback(ranks);
-  const auto& [psi, lambda] = feedback.regions(layers.normal_circles, {});
+  PaperLayers paper;
+  feedback.set_regions(layers.normal_circles, {}, paper);
+  const auto& [psi, lambda, alpha] = paper;
   ASSERT_EQ(psi.size(), 1u);
   EXPECT_TRUE(lambda.empty());
   EXPECT_TRUE(psi[0].location.isApprox(layers.normal_circles[0].location));

@@ -13,6 +13,7 @@ namespace lcs {
 namespace {
 
 using namespace paper;
+using testing::AllLayers;
 using testing::CircleSteps;
 using testing::EdgeSteps;
 using testing::SquareSteps;
@@ -39,7 +40,9 @@ TEST(Lambda, HoldsTheTrustedNormalCirclesThatAreNotIgnored) {
       circle({100, 100}, p.trust.standard), circle({200, 100}, p.trust.standard - 1),
       circle({300, 100}, p.trust.maximum), circle({400, 100}, p.trust.standard, true)};
   Feedback feedback(p.trust);
-  const auto& [psi, lambda] = feedback.regions(layers.normal_circles, layers.squares);
+  PaperLayers paper;
+  feedback.set_regions(layers.normal_circles, layers.squares, paper);
+  const auto& [psi, lambda, alpha] = paper;
   ASSERT_EQ(lambda.size(), 2u);
   EXPECT_EQ(lambda[0].location, Vec2(100, 100));
   EXPECT_EQ(lambda[1].location, Vec2(300, 100));
@@ -57,8 +60,9 @@ TEST(Psi, IsADiscOfACircleAndARectangleOfASquare) {
   layers.squares = {square};
   layers.squares[0].ignoring = true;
   Feedback feedback({});
-  const std::vector<IgnoreRegion>& psi =
-      feedback.regions(layers.normal_circles, layers.squares).ignored;
+  PaperLayers paper;
+  feedback.set_regions(layers.normal_circles, layers.squares, paper);
+  const std::vector<IgnoreRegion>& psi = paper.ignored;
   ASSERT_EQ(psi.size(), 2u);
   EXPECT_EQ(static_cast<int>(psi[0].shape), 1);  // Ty
   EXPECT_EQ(static_cast<int>(psi[1].shape), 2);
@@ -185,10 +189,10 @@ TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
   layers.squares = {square, square};
   layers.squares[0].location = {500, 240};
   layers.squares[1].location = {100, 100};
-  layers.ignored = {{IgnoreRegion::Shape::circle, {500, 240}, {60, 60}},
-                    {IgnoreRegion::Shape::circle, {100, 100}, {60, 60}}};
-  CircleSteps(p.circle).update(layers, ahead());
-  SquareSteps(p.square).update(layers, ahead());
+  const std::vector<IgnoreRegion> psi = {{IgnoreRegion::Shape::circle, {500, 240}, {60, 60}},
+                                         {IgnoreRegion::Shape::circle, {100, 100}, {60, 60}}};
+  CircleSteps(p.circle).update(layers, ahead(), psi);
+  SquareSteps(p.square).update(layers, ahead(), psi);
   ASSERT_EQ(layers.normal_circles.size(), 2u);
   EXPECT_EQ(layers.normal_circles[0].members, 5);  // counted by the predictions of its edges
   EXPECT_EQ(layers.normal_circles[1].members, 0);
@@ -207,7 +211,7 @@ TEST(Psi, IsNeverAppliedWhenSwitchedOff) {
   PaperFilter filter(world.camera, p);
   for (int k = 0; k < 15; ++k) {
     const FrameResult& result = filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
-    EXPECT_TRUE(result.layers.ignored.empty());
+    EXPECT_TRUE(result.paper.ignored.empty());
     for (const Verdict verdict : result.verdicts) EXPECT_NE(verdict, Verdict::ignored);
     world.advance(motion);
   }
@@ -219,14 +223,14 @@ TEST(Lambda, AppearsInTheFrameAfterItsCircles) {
   World world = steady_world(3);
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
   PaperFilter filter(world.camera);
-  EXPECT_TRUE(filter.step(world.corners(), {}).layers.collectors.empty());
+  EXPECT_TRUE(filter.step(world.corners(), {}).paper.collectors.empty());
   world.advance(motion);
-  EXPECT_FALSE(filter.step(world.corners(), motion).layers.collectors.empty());
+  EXPECT_FALSE(filter.step(world.corners(), motion).paper.collectors.empty());
 }
 
 /// The paper's dimensionality counts the items of all experts.
 TEST(Dimensionality, CountsEdgesCirclesAndSquares) {
-  Layers layers;
+  AllLayers layers;
   layers.normal_edges.resize(1);
   layers.rebel_edges.resize(2);
   layers.normal_circles.resize(4);

@@ -281,16 +281,16 @@ TEST(PaperFilter, LandmarksInsidePsiLoseNoTrust) {
   std::map<Id, int> trust_before;
   int coasted = 0;
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const Layers& layers = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion).layers;
+    const FrameResult& result = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion);
     const auto inside = [&](const Vec2& x) {
-      return std::any_of(layers.ignored.begin(), layers.ignored.end(), [&](const IgnoreRegion& r) {
+      return std::ranges::any_of(result.paper.ignored, [&](const IgnoreRegion& r) {
         const Vec2 d = (x - r.location).cwiseAbs();
         return r.shape == IgnoreRegion::Shape::circle ? d.norm() <= r.size.x()
                                                       : d.x() <= r.size.x() && d.y() <= r.size.y();
       });
     };
     std::map<Id, int> trust_now;
-    for (const Edge& edge : layers.normal_edges) {
+    for (const Edge& edge : result.layers.normal_edges) {
       trust_now[edge.id] = edge.trust;
       if (edge.corner >= 0 || edge.age == 0 || !inside(edge.predicted)) continue;
       ++coasted;
@@ -310,7 +310,7 @@ TEST(PaperFilter, IgnoredCornersAreThoseInsidePsi) {
     const FrameResult& result = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion);
     for (std::size_t i = 0; i < frames[k].size(); ++i) {
       if (result.verdicts[i] == Verdict::ignored) ++ignored;
-      if (result.layers.ignored.empty()) {
+      if (result.paper.ignored.empty()) {
         EXPECT_NE(result.verdicts[i], Verdict::ignored);
       }
     }

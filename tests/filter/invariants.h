@@ -108,14 +108,14 @@ inline std::optional<std::string> violation(const FrameResult& result, std::size
     expect(inside(square.location), "a square is outside of the picture");
     expect(trusted(square.trust, square_trust(parameters)), "a square's trust is out of ranks");
   }
-  for (const IgnoreRegion& region : layers.ignored) {
+  for (const IgnoreRegion& region : result.paper.ignored) {
     expect(region.location.allFinite() && region.size.allFinite(), "psi is not finite");
   }
-  for (const Collector& collector : layers.collectors) {
+  for (const Collector& collector : result.paper.collectors) {
     expect(collector.location.allFinite() && finite({collector.radius, collector.depth_ratio}),
            "lambda is not finite");
   }
-  for (const Chain& chain : layers.chains) {
+  for (const Chain& chain : result.paper.chains) {
     for (int i = 0; i < chain.count; ++i) {
       expect(chain.sightings[static_cast<std::size_t>(i)].allFinite(), "alpha is not finite");
     }

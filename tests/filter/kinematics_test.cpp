@@ -8,6 +8,7 @@ namespace lcs {
 namespace {
 
 using namespace paper;
+using testing::AllLayers;
 using testing::CircleSteps;
 using testing::EdgeSteps;
 using testing::SquareSteps;
@@ -46,7 +47,7 @@ Square rebel_square(Random& random) {
   return square;
 }
 
-void predict_all(Layers& layers, const MotionField& field) {
+void predict_all(AllLayers& layers, const MotionField& field) {
   EdgeSteps().predict(layers, field);
   CircleSteps().predict(layers, field);
   SquareSteps().predict(layers, field);
@@ -75,7 +76,7 @@ TEST_P(Rotation, MovesEveryStoredLocationAndEveryOriginOfItsOwn) {
   Random random(1);
   for (int i = 0; i < 50; ++i) {
     const MotionField field = turning(random.vector(1));
-    Layers before;
+    AllLayers before;
     before.normal_edges = {from_origin<Edge>(random)};
     before.rebel_edges = {from_origin<Edge>(random)};
     before.normal_circles = {from_origin<Circle>(random)};
@@ -83,7 +84,7 @@ TEST_P(Rotation, MovesEveryStoredLocationAndEveryOriginOfItsOwn) {
     before.squares = {from_origin<Square>(random), rebel_square(random)};
     before.squares[0].half_size = {20, 10};
     before.chains = {{.sightings = {middle_pixel(random), middle_pixel(random)}, .count = 2}};
-    Layers after = before;
+    AllLayers after = before;
     predict_all(after, field);
 
     EXPECT_EQ(after.normal_edges[0].predicted, field.rotated(before.normal_edges[0].location));
@@ -107,11 +108,11 @@ TEST_P(Rotation, TurnsTheDirectionsOfRebels) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const MotionField field = turning(random.vector(3));  // up to 17 degrees in the interval
-    Layers before;
+    AllLayers before;
     before.rebel_edges = {from_origin<Edge>(random)};
     before.rebel_circles = {rebel_circle(random)};
     before.squares = {rebel_square(random)};
-    Layers after = before;
+    AllLayers after = before;
     predict_all(after, field);
     const auto turned = [&](const auto& item) {
       return angle_of(field.rotated(item.location) - field.rotated(item.origin));
@@ -134,7 +135,7 @@ TEST_P(Rotation, CarriesARebelOnInItsTurnedDirection) {
   circle.location = vga().centre_px;
   circle.origin = vga().centre_px - Vec2(50, 0);
   circle.speed = 40;
-  Layers layers;
+  AllLayers layers;
   layers.rebel_circles = {circle};
   predict_all(layers, field);
   EXPECT_TRUE(layers.rebel_circles[0].location.isApprox(vga().centre_px + Vec2(0, -40), 1e-9));
@@ -155,7 +156,7 @@ TEST(Kinematics, WhileStillStaticLayersStay) {
   Square square;
   square.location = {450, 300};
   square.half_size = {20, 10};
-  Layers layers;
+  AllLayers layers;
   layers.normal_circles = {circle};
   layers.squares = {square};
   predict_all(layers, still);
@@ -208,7 +209,7 @@ TEST_F(Driving, ANormalCircleGoesAndGrowsAsItsStaticPatchDoesAndSoDoPsiAndLambda
     circle.radius = 20;
     circle.depth_ratio = c.ratio_before;
     circle.trust = PaperParameters{}.circle.trust.standard;
-    Layers layers;
+    AllLayers layers;
     layers.normal_circles = {circle, circle};
     layers.normal_circles[1].ignoring = true;
     const MotionField field(vga(), c.motion, parameters);
@@ -216,7 +217,9 @@ TEST_F(Driving, ANormalCircleGoesAndGrowsAsItsStaticPatchDoesAndSoDoPsiAndLambda
     EXPECT_TRUE(layers.normal_circles[0].location.isApprox(c.now, 1e-9));
     EXPECT_NEAR(layers.normal_circles[0].radius, 20 * c.growth, 1e-9);
     Feedback feedback({});
-    const auto& [psi, lambda] = feedback.regions(layers.normal_circles, {});
+    PaperLayers paper;
+    feedback.set_regions(layers.normal_circles, {}, paper);
+    const auto& [psi, lambda, alpha] = paper;
     ASSERT_EQ(psi.size(), 1u);
     ASSERT_EQ(lambda.size(), 1u);
     EXPECT_TRUE(psi[0].location.isApprox(c.now, 1e-9));
@@ -235,7 +238,7 @@ TEST_F(Driving, ANormalSquareGoesAndGrowsAboutTheFocusOfNow) {
     square.half_size = {30, 15};
     square.depth_ratio = c.ratio_before;
     square.origin = vga().centre_px;  // where the FOE was in the previous frame
-    Layers layers;
+    AllLayers layers;
     layers.squares = {square};
     SquareSteps().predict(layers, field);
     EXPECT_LT((layers.squares[0].location - c.now).norm(), 1e-6) << c.before.transpose();
@@ -252,7 +255,7 @@ TEST_F(Driving, BetaOfANormalEdgeIsItsDirectionOfFlowAlsoWhileItCoasts) {
   for (int i = 0; i < 200; ++i) {
     const Case c = any();
     const MotionField field(vga(), c.motion, parameters);
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {from_origin<Edge>(random)};
     layers.normal_edges[0].trust = 4;
     EdgeSteps experts;
@@ -270,7 +273,7 @@ TEST_F(Driving, TheOriginOfNormalLandmarksIsTheFocus) {
     const Case c = any();
     const MotionField field(vga(), c.motion, parameters);
     if (!field.foe()) continue;
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {from_origin<Edge>(random)};
     layers.normal_circles = {from_origin<Circle>(random)};
     layers.squares = {from_origin<Square>(random)};
@@ -293,7 +296,7 @@ TEST_F(Driving, WhenTheVehicleChangesItsSpeedStaticLayersDo) {
   square.half_size = {20, 20};
   square.depth_ratio = circle.depth_ratio;
   const auto speeds = [&](double v) {
-    Layers layers;
+    AllLayers layers;
     layers.normal_circles = {circle};
     layers.squares = {square};
     const MotionField field(vga(), steady_motion({0, 0, v}, Vector3d::Zero(), 0.01), parameters);

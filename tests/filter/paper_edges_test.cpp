@@ -9,6 +9,7 @@ namespace lcs {
 namespace {
 
 using namespace paper;
+using testing::AllLayers;
 using testing::CircleSteps;
 using testing::EdgeSteps;
 using testing::SquareSteps;
@@ -23,7 +24,7 @@ using testing::World;
 /// An edge 150 px right of the FOE at the reference depth, predicted by a camera that moves ahead.
 struct Classified : ::testing::Test {
   Classified() : field(vga(), motion, PaperParameters{}.field) {
-    Layers layers;
+    AllLayers layers;
     Edge start;
     start.location = vga().centre_px + Vec2(150, 0);
     start.mu = 25;
@@ -132,7 +133,7 @@ TEST(Alpha, ChainsLiveThreeFramesAtTheMost) {
   for (int i = 0; i < 40; ++i) corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   filter.step(corners, {});
   for (int k = 0; k < 2; ++k) filter.step({}, motion);
-  EXPECT_TRUE(filter.step({}, motion).layers.chains.empty());
+  EXPECT_TRUE(filter.step({}, motion).paper.chains.empty());
 }
 
 }  // namespace

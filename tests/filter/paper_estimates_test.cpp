@@ -12,6 +12,7 @@ namespace lcs {
 namespace {
 
 using namespace paper;
+using testing::AllLayers;
 using testing::CircleSteps;
 using testing::EdgeSteps;
 using testing::SquareSteps;
@@ -32,7 +33,7 @@ Chi chi_of(std::vector<Vec2> corners) {
 }
 
 /// A frame of the paper's rule without the Line expert.
-std::vector<Verdict> step(EdgeSteps& experts, Layers& layers, const std::vector<Vec2>& corners,
+std::vector<Verdict> step(EdgeSteps& experts, AllLayers& layers, const std::vector<Vec2>& corners,
                           const MotionField& field, int group = -1) {
   experts.predict(layers, field);
   return experts.update(layers, chi_of(corners), std::vector<int>(corners.size(), group), field);
@@ -84,7 +85,7 @@ struct NormalEstimates : ::testing::Test {
 
   /// The edge after a frame with a corner at its prediction plus (ahead, aside).
   Edge after(const Case& c, double ahead, double aside, Verdict expected = Verdict::normal) {
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {c.edge};
     corner = c.predicted + ahead * c.along + aside * Vec2(-c.along.y(), c.along.x());
     const auto verdicts = step(experts, layers, {corner}, c.field);
@@ -100,7 +101,7 @@ struct NormalEstimates : ::testing::Test {
 TEST_F(NormalEstimates, TheVelocityIsPredictedHalfwayToTheVehicles) {
   for (int i = 0; i < 200; ++i) {
     const Case c = any();
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {c.edge};
     experts.predict(layers, c.field);
     const Edge& edge = layers.normal_edges[0];
@@ -167,7 +168,7 @@ TEST_F(NormalEstimates, TrustRisesAtThePredictionAndFallsShortOfItAndWithoutACor
 TEST_F(NormalEstimates, AtTheCriticalTrustOneMissDeletesAndNothingIsDividedByZero) {
   Case c = any();
   c.edge.trust = kRanks.critical;
-  Layers layers;
+  AllLayers layers;
   layers.normal_edges = {c.edge};
   step(experts, layers, {}, c.field);
   EXPECT_TRUE(layers.normal_edges.empty());
@@ -186,7 +187,7 @@ TEST_F(NormalEstimates, CorWidensTheRadiusWhereTheGroupLiesOnALine) {
     for (const Vec2& offset : offsets) corners.push_back(predicted + offset);
     std::vector<int> groups(corners.size(), others_group);
     groups[0] = 7;
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {edge};
     experts.predict(layers, field);
     experts.update(layers, chi_of(corners), groups, field);
@@ -222,7 +223,7 @@ TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
     p.circle.trust = {2, 2, maximum};
     p.edge.mu_min = p.edge.mu_max;  // the radius does not matter here
     EdgeSteps experts(p);
-    Layers layers;
+    AllLayers layers;
     const double ratio = 2.5;
     double x = 20;
     for (int k = 0; k < 60; ++k, x += ratio * step_px) step(experts, layers, {{x, 240}}, field);
@@ -239,7 +240,7 @@ std::vector<int> lives(double ratio) {
   const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;  // 7 px
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   std::vector<int> lived;
   for (double x = 20; x < 600; x += ratio * step_px) {
     step(experts, layers, {{x, 240}}, field);
@@ -277,7 +278,7 @@ TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
         {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.5}, {0, 0.1, 0}, 0.1);
     const MotionField field(vga(), motion, FieldParameters{});
     EdgeSteps experts;
-    Layers layers;
+    AllLayers layers;
     const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
     EXPECT_EQ(step(experts, layers, {x}, field)[0], Verdict::pending);
     ASSERT_EQ(layers.normal_edges.size(), 1u);
@@ -295,7 +296,7 @@ TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
 TEST(Xi, OneMakesAFurtherNormalEdgeAndNoCandidate) {
   const MotionField field = to_the_right();
   const Edge edge = edge_with_radius(4);
-  Layers layers;
+  AllLayers layers;
   layers.normal_edges = {edge};
   EdgeSteps experts;
   const Vec2 predicted = field.translated(edge.location, 1);
@@ -315,7 +316,7 @@ TEST(Xi, FourAndFiveGoToAlpha) {
   ASSERT_LT((against - predicted).norm(), edge.mu);
   // 9 degrees over the 400 px up to which the span widens are 63 px.
   for (const Vec2& x : {against, Vec2(predicted + Vec2(0, 80))}) {
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges = {edge};
     EdgeSteps experts;
     step(experts, layers, {x}, field);
@@ -329,7 +330,7 @@ TEST(Xi, FourAndFiveGoToAlpha) {
 TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
   const MotionField field = to_the_right();
   const Edge edge = edge_with_radius(4);
-  Layers layers;
+  AllLayers layers;
   layers.normal_edges = {edge};
   EdgeSteps experts;
   const Vec2 predicted = field.translated(edge.location, 1);
@@ -341,7 +342,7 @@ TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
 /// With the focus far off, the span would widen to the whole image.
 TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
   const MotionField field = to_the_right();
-  Layers layers;
+  AllLayers layers;
   layers.normal_edges.resize(1);
   layers.normal_edges[0].location = {300, 240};
   layers.normal_edges[0].mu = 200;
@@ -364,7 +365,7 @@ struct Competing : ::testing::Test {
   /// Whether the edge predicted at `first`, relative to the corner, wins against `second`.
   bool first_wins(const Vec2& first, int first_trust, const Vec2& second, int second_trust) {
     const Vec2 corner(400, 240), back = field.translated(corner, 1) - corner;
-    Layers layers;
+    AllLayers layers;
     layers.normal_edges.resize(2);
     layers.normal_edges[0].location = corner + first - back;
     layers.normal_edges[1].location = corner + second - back;
@@ -415,7 +416,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
     const double turn = random.uniform(-0.2, 0.2), stretch = random.uniform(0.85, 1.15);
     const Vec2 c = b2 + stretch * length * unit_vector(angle_of(b2 - a2) + turn);
     EdgeSteps experts;
-    Layers layers;
+    AllLayers layers;
     EXPECT_EQ(step(experts, layers, {a}, field)[0], Verdict::pending);
     EXPECT_EQ(step(experts, layers, {b}, field)[0], Verdict::pending);
     EXPECT_EQ(step(experts, layers, {c}, field)[0], Verdict::rebel);
@@ -435,7 +436,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
 /// Whether a corner that moves by `first` and then by `second` becomes a rebel.
 bool becomes_rebel(const Vec2& first, const Vec2& second) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   const Vec2 a(320, 240);
   step(experts, layers, {a}, standing());
   step(experts, layers, {a + first}, standing());
@@ -466,7 +467,7 @@ TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
   p.edge.alpha_stretch = 1;
   const auto found = [&](double bend) {
     EdgeSteps experts(p);
-    Layers layers;
+    AllLayers layers;
     const Vec2 a(320, 240), b = a + Vec2(30, 0), c = a + 55 * unit_vector(bend);
     for (const Vec2& x : {a, b, c}) step(experts, layers, {x}, standing());
     return !layers.rebel_edges.empty();
@@ -481,7 +482,7 @@ TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
 std::size_t rebels_after(const std::vector<Chain>& chains, const std::vector<Vec2>& corners,
                          const MotionField& field) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   layers.chains = chains;
   step(experts, layers, corners, field);
   return layers.rebel_edges.size();
@@ -514,7 +515,7 @@ TEST(Alpha, ASightingThatRowsShareBecomesOneRebel) {
 
 TEST(Alpha, ASightingBranchesIntoTheNearestOnly) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   const Vec2 a(320, 240);
   std::vector<Vec2> candidates;
   for (int i = 0; i < 7; ++i) candidates.push_back(a + (5.0 + 3 * i) * unit_vector(i));
@@ -530,7 +531,7 @@ TEST(Alpha, ASightingBranchesIntoTheNearestOnly) {
 
 TEST(Alpha, TwoFramesOfOneTimeMakeNoRebelAndKeepTheRows) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   const Vec2 a(320, 240);
   layers.chains = {row(a, a + Vec2(20, 0))};
   const MotionField no_time(vga(), EgoMotion{}, FieldParameters{});
@@ -542,7 +543,7 @@ TEST(Alpha, TwoFramesOfOneTimeMakeNoRebelAndKeepTheRows) {
 
 TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   const Vec2 a(320, 240);
   const std::vector<Vec2> candidates = {a + Vec2(0, 12), a + Vec2(15, 0), a + Vec2(-20, -20)};
   step(experts, layers, {a}, standing());
@@ -563,7 +564,7 @@ TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {
 
 TEST(Alpha, ACornerBecomesOneRebelHoweverManyRowsEndAtIt) {
   EdgeSteps experts;
-  Layers layers;
+  AllLayers layers;
   const Vec2 a(320, 240);
   step(experts, layers, {a, a + Vec2(0, 6), a + Vec2(0, 12)}, standing());
   step(experts, layers, {a + Vec2(20, 0), a + Vec2(20, 6), a + Vec2(20, 12)}, standing());
@@ -600,7 +601,7 @@ struct RebelEstimates : ::testing::Test {
     return c;
   }
   Edge after(const Case& c, const Vec2& corner, Verdict expected) {
-    Layers layers;
+    AllLayers layers;
     layers.rebel_edges = {c.edge};
     EdgeSteps experts;
     EXPECT_EQ(step(experts, layers, {corner}, c.field)[0], expected);

@@ -2,6 +2,7 @@
 /// The steps of the paper's filter, applied to the layers of a frame in place.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "filter/paper/feedback.h"
@@ -12,29 +13,35 @@
 
 namespace lcs::testing {
 
+/// All layers of the paper's filter.
+struct AllLayers : Layers, PaperLayers {};
+
 class EdgeSteps {
  public:
   explicit EdgeSteps(const paper::PaperParameters& p = {})
       : expert(vga(), p.edge, p.circle.trust) {}
 
-  void predict(Layers& layers, const MotionField& field) {
-    put(expert.predict(layer_of(layers), field), layers);
+  void predict(AllLayers& layers, const MotionField& field) {
+    paper::EdgeLayer layer = layer_of(layers);
+    expert.predict(layer, field);
+    put(layer, layers);
   }
   /// \return the verdict of each corner of chi.
-  std::vector<Verdict> update(Layers& layers, const Chi& chi, const std::vector<int>& groups,
+  std::vector<Verdict> update(AllLayers& layers, const Chi& chi, const std::vector<int>& groups,
                               const MotionField& field) {
-    const auto& result = expert.update(layer_of(layers), chi, groups, layers.ignored, field);
-    put(result.layer, layers);
-    return result.verdicts;
+    paper::EdgeLayer layer = layer_of(layers);
+    const auto& [verdicts, reasons] = expert.update(layer, chi, groups, layers.ignored, field);
+    put(layer, layers);
+    return verdicts;
   }
 
   paper::PaperEdges expert;
 
  private:
-  static paper::EdgeLayer layer_of(const Layers& layers) {
+  static paper::EdgeLayer layer_of(const AllLayers& layers) {
     return {{layers.normal_edges, layers.rebel_edges}, layers.chains};
   }
-  static void put(const paper::EdgeLayer& layer, Layers& layers) {
+  static void put(const paper::EdgeLayer& layer, AllLayers& layers) {
     layers.normal_edges = layer.edges.normal;
     layers.rebel_edges = layer.edges.rebel;
     layers.chains = layer.chains;
@@ -47,12 +54,14 @@ class CircleSteps {
       : expert_(vga(), p, paper::PaperEdgeParameters{}.corner_noise, ignore) {}
 
   void predict(Layers& layers, const MotionField& field) {
-    put(expert_.predict({layers.normal_circles, layers.rebel_circles}, field), layers);
+    BothKinds<Circle> circles{layers.normal_circles, layers.rebel_circles};
+    expert_.predict(circles, field);
+    put(circles, layers);
   }
-  void update(Layers& layers, const MotionField& field) {
-    const auto& [circles, of_edges] =
-        expert_.update({layers.normal_edges, layers.rebel_edges},
-                       {layers.normal_circles, layers.rebel_circles}, layers.ignored, field);
+  void update(Layers& layers, const MotionField& field, std::span<const IgnoreRegion> psi = {}) {
+    CircleExpert::Result result{{layers.normal_circles, layers.rebel_circles}, {}};
+    expert_.update({layers.normal_edges, layers.rebel_edges}, psi, field, result);
+    const auto& [circles, of_edges] = result;
     put(circles, layers);
     for (std::size_t i = 0; i < layers.normal_edges.size(); ++i) {
       layers.normal_edges[i].circle = of_edges.normal[i];
@@ -75,12 +84,9 @@ class SquareSteps {
   explicit SquareSteps(const paper::PaperSquareParameters& p = {}, bool ignore = false)
       : expert_(vga(), p, ignore) {}
 
-  void predict(Layers& layers, const MotionField& field) {
-    layers.squares = expert_.predict(std::vector<Square>(layers.squares), field);
-  }
-  void update(Layers& layers, const MotionField& field) {
-    layers.squares = expert_.update({layers.normal_circles, layers.rebel_circles}, layers.squares,
-                                    layers.ignored, field);
+  void predict(Layers& layers, const MotionField& field) { expert_.predict(layers.squares, field); }
+  void update(Layers& layers, const MotionField& field, std::span<const IgnoreRegion> psi = {}) {
+    expert_.update({layers.normal_circles, layers.rebel_circles}, psi, field, layers.squares);
   }
 
  private:

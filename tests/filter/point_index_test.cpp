@@ -5,15 +5,13 @@
 #include <map>
 #include <set>
 
+#include "filter/matching/couples.h"
 #include "filter/matching/point_grid.h"
-#include "filter/paper/cheapest_first.h"
 #include "filter/types/signature.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
 namespace {
-
-using namespace paper;
 
 using testing::Random;
 
@@ -183,9 +181,18 @@ TEST(PointGrid, KnowsHowFarSoManyReach) {
   EXPECT_GT(grid.crowd_radius({10, 10}, 40), 500);
 }
 
-TEST(CheapestFirst, SettlesInOrderWhatIsNotSettledYet) {
+void expect_same(const std::vector<Couple>& couples, const std::vector<Couple>& expected) {
+  ASSERT_EQ(couples.size(), expected.size());
+  for (std::size_t i = 0; i < couples.size(); ++i) {
+    EXPECT_EQ(couples[i].cost, expected[i].cost);
+    EXPECT_EQ(couples[i].a, expected[i].a);
+    EXPECT_EQ(couples[i].b, expected[i].b);
+  }
+}
+
+TEST(Couples, AreSortedFromACostBelowZeroOnAndIfOneIsFarHigher) {
   Random random(9);
-  CheapestFirst order;
+  CoupleSorter sorter;
   for (const int count : {0, 1, 7, 500}) {
     // Some costs are equal, and one is far higher than all others.
     std::vector<Couple> couples;
@@ -194,35 +201,18 @@ TEST(CheapestFirst, SettlesInOrderWhatIsNotSettledYet) {
       couples.push_back({std::round(random.uniform(-3, 5) * 20) / 20, a, b});
     }
     if (count > 0) couples.back().cost = 1e6;
-    const auto matches = [&](auto&& visit) {
-      std::vector<Couple> taken;
-      const auto is_settled = [&](const Couple& couple) {
-        return std::any_of(taken.begin(), taken.end(), [&](const Couple& other) {
-          return other.a == couple.a || other.b == couple.b;
-        });
-      };
-      visit(is_settled, [&](const Couple& couple) {
-        EXPECT_FALSE(is_settled(couple));
-        taken.push_back(couple);
-      });
-      return taken;
-    };
-    const auto found = matches(
-        [&](auto&& is_settled, auto&& settle) { order.visit(couples, is_settled, settle); });
-    const auto expected = matches([&](auto&& is_settled, auto&& settle) {
-      auto sorted = couples;
-      std::sort(sorted.begin(), sorted.end());
-      for (const Couple& couple : sorted) {
-        if (!is_settled(couple)) settle(couple);
-      }
-    });
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_EQ(found[i].cost, expected[i].cost);
-      EXPECT_EQ(found[i].a, expected[i].a);
-      EXPECT_EQ(found[i].b, expected[i].b);
-    }
+    std::vector<Couple> expected = couples;
+    std::sort(expected.begin(), expected.end());
+    sorter.sort(couples, 1e6F, -3);
+    expect_same(couples, expected);
   }
+}
+
+TEST(Couples, OfOneCostAreSortedByIndex) {
+  CoupleSorter sorter;
+  std::vector<Couple> couples = {{-2, 1, 5}, {-2, 0, 7}, {-2, 1, 4}};
+  sorter.sort(couples, -2, -2);
+  expect_same(couples, {{-2, 0, 7}, {-2, 1, 4}, {-2, 1, 5}});
 }
 
 TEST(PointGrid, FindsNothingNearestAmongNone) {
@@ -247,10 +237,7 @@ TEST(Couples, AreSortedByCostThenByIndex) {
   std::vector<Couple> expected = couples;
   std::sort(expected.begin(), expected.end());
   sorter.sort(couples, 7);
-  for (std::size_t i = 0; i < couples.size(); ++i) {
-    EXPECT_EQ(couples[i].cost, expected[i].cost);
-    EXPECT_EQ(couples[i].b, expected[i].b);
-  }
+  expect_same(couples, expected);
 }
 
 /// The machine's instruction and the plain sums count the same bits.

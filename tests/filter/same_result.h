@@ -36,7 +36,7 @@ inline void expect_same(const FrameResult& a, const FrameResult& b, std::size_t 
                                    b.layers.squares[i].outline.vertices()))
         << "frame " << frame;
   }
-  EXPECT_EQ(a.layers.chains.size(), b.layers.chains.size());
+  EXPECT_EQ(a.paper.chains.size(), b.paper.chains.size());
 }
 
 }  // namespace lcs::testing

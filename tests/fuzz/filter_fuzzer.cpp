@@ -90,7 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(result.layers.rebel_edges.size() <= 2 * offered, "rebel edges come of corners");
     // A row with one sighting per corner, which branches into several rows of two sightings.
     const auto branches = static_cast<std::size_t>(paper ? 1 + paper->edge.alpha_branches : 0);
-    fuzz::require(result.layers.chains.size() <= branches * offered, "alpha comes of corners");
+    fuzz::require(result.paper.chains.size() <= branches * offered, "alpha comes of corners");
   }
   const Diagnostics& diagnostics = filter.diagnostics();
   fuzz::require((diagnostics.total() == 0) == diagnostics.lines().empty(), "what is met is told");

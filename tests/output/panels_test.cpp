@@ -18,6 +18,7 @@ struct Scene {
   std::vector<Eigen::Vector2f> corners;
   std::vector<Verdict> verdicts;
   Layers layers;
+  PaperLayers paper;
   std::vector<TruthBox> truth;
   std::vector<Mark> corner_marks = {}, circle_marks = {}, square_marks = {};
 
@@ -26,6 +27,7 @@ struct Scene {
                        .corners_px = corners,
                        .verdicts = verdicts,
                        .layers = layers,
+                       .paper = paper,
                        .truth = truth,
                        .caption = "frame 1",
                        .corner_marks = corner_marks,
@@ -172,7 +174,7 @@ TEST_P(Panels, LegendsNameOnlyWhatThereIs) {
   EXPECT_FALSE(names(Panel::circles, colour::kIgnoreRegion));
   EXPECT_FALSE(names(Panel::squares, colour::kIgnoreRegion));
   scene_.verdicts = {Verdict::ignored};
-  scene_.layers.ignored = {
+  scene_.paper.ignored = {
       {.shape = IgnoreRegion::Shape::circle, .location = {300, 100}, .size = {40, 0}},
       {.shape = IgnoreRegion::Shape::rectangle, .location = {250, 150}, .size = {30, 60}}};
   EXPECT_TRUE(names(Panel::corners, colour::kIgnoredCorner));
@@ -181,7 +183,7 @@ TEST_P(Panels, LegendsNameOnlyWhatThereIs) {
 }
 
 TEST_P(Panels, CollectorsAreWhiteCirclesAtTheirRadius) {
-  scene_.layers.collectors = {{.location = {200, 150}, .radius = 50}};
+  scene_.paper.collectors = {{.location = {200, 150}, .radius = 50}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   for (const Vec2& on : {Vec2(250, 150), Vec2(150, 150), Vec2(200, 100), Vec2(200, 200)}) {
     EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, on, colour::kCollector));
@@ -210,7 +212,7 @@ TEST_P(Panels, EdgesAreBlueOrRedWithTheirPredictionYellow) {
 TEST_P(Panels, CirclesAreGreenOrRedAndCircularIgnoranceYellow) {
   scene_.layers.normal_circles = {circle_at({100, 100}, 40)};
   scene_.layers.rebel_circles = {circle_at({200, 100}, 40)};
-  scene_.layers.ignored = {
+  scene_.paper.ignored = {
       {.shape = IgnoreRegion::Shape::circle, .location = {300, 100}, .size = {40, 0}}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {100, 140}, colour::kNormalCircle));
@@ -227,7 +229,7 @@ TEST_P(Panels, SquaresAreMagentaAndRectangularIgnoranceYellow) {
   square.location = {100, 150};
   square.half_size = {30, 60};
   scene_.layers.squares = {square};
-  scene_.layers.ignored = {
+  scene_.paper.ignored = {
       {.shape = IgnoreRegion::Shape::rectangle, .location = {250, 150}, .size = {30, 60}}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   for (const Vec2& on : {Vec2(-30, 0), Vec2(30, 0), Vec2(0, -60), Vec2(0, 60)}) {
@@ -288,7 +290,7 @@ TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
   square.location = {-kFar, 100};
   square.half_size = {10, 10};
   scene_.layers.squares = {square};
-  scene_.layers.collectors = {{.location = {kFar, kFar}, .radius = 10}};
+  scene_.paper.collectors = {{.location = {kFar, kFar}, .radius = 10}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   // Only in the images, because the captions contain counts.
   for (const Panel panel : kAllPanels) {
@@ -351,9 +353,9 @@ TEST_P(Panels, NamesDoNotLieOnEachOther) {
 }
 
 TEST_P(Panels, NoPanelPaintsOverAnother) {
-  scene_.layers.collectors = {{.location = {0, 0}, .radius = 90}};
+  scene_.paper.collectors = {{.location = {0, 0}, .radius = 90}};
   const double right = GetParam().width - 1;
-  scene_.layers.collectors.push_back({.location = {right, 200}, .radius = 90});
+  scene_.paper.collectors.push_back({.location = {right, 200}, .radius = 90});
   const cv::Mat3b drawn = scene_.draw(sheet_);
   EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {right - 90, 200}, colour::kCollector));
   EXPECT_TRUE(is_bare(drawn, sheet_, Panel::edges, {89, 200}));

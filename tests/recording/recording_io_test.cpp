@@ -107,13 +107,13 @@ FrameRecord full_frame(Filler& filler, int index) {
   frame.layers.rebel_circles = filler.items<Circle>(1);
   for (Circle& circle : frame.layers.rebel_circles) circle.rebel = true;
   frame.layers.squares = filler.items<Square>(2);
-  frame.layers.ignored = filler.items<IgnoreRegion>(3);
-  frame.layers.collectors = filler.items<Collector>(2);
+  frame.paper.ignored = filler.items<IgnoreRegion>(3);
+  frame.paper.collectors = filler.items<Collector>(2);
   Chain chain;
   chain.count = 1;
   chain.sightings = {Vec2(filler.awkward(), filler.awkward()), Vec2::Zero()};
   chain.off_field_px = filler.awkward();
-  frame.layers.chains = {chain};
+  frame.paper.chains = {chain};
   frame.corner_truth = filler.items<sim::CornerTruth>(6);
   frame.corner_truth[0].depth_m = kInfinity;
   frame.corner_truth[1].motion_px.setConstant(kNan);

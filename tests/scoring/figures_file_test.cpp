@@ -30,9 +30,9 @@ recording::Recording five_frames(bool with_times) {
     layers.normal_edges.resize(7);
     layers.rebel_edges.resize(4);
     layers.normal_circles.resize(3);
-    layers.ignored.resize(2);
-    layers.collectors.resize(5);
-    layers.chains.resize(9);
+    frame.record().paper.ignored.resize(2);
+    frame.record().paper.collectors.resize(5);
+    frame.record().paper.chains.resize(9);
     if (with_times)
       frame.record().times = recording::FrameTimes{.detect_ms = 0.25, .filter_ms = 1.5};
     frames.push_back(frame);

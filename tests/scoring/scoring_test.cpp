@@ -649,8 +649,8 @@ TEST(Dimensions, AreCountedBesideStoresOfCorners) {
     for (int i = 0; i <= k; ++i) frame.square(static_cast<Id>(i), kBox);
     frame.rebel_circle({1, 1}, 1);
     frame.record().layers.normal_edges.resize(2);
-    frame.record().layers.ignored.resize(50);     // no part of the paper's dimensionality
-    frame.record().layers.collectors.resize(50);  // nor are these
+    frame.record().paper.ignored.resize(50);     // no part of the paper's dimensionality
+    frame.record().paper.collectors.resize(50);  // nor are these
   }));
   EXPECT_DOUBLE_EQ(get(metrics, "frames"), 10);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.corners_mean"), 5.5);

@@ -54,7 +54,7 @@ std::string megabytes(double bytes) {
 }
 
 /// Tells the size of a sequence, or of the formats that are added to one, before it is made.
-/// \throws bench::OutputError if the disk has too little room for it.
+/// \throws files::OutputError if the disk has too little room for it.
 void tell_size(const scenario::Scenario& scenario, const std::vector<std::string>& formats,
                const std::vector<std::string>& earlier, sequence::SequenceFolder& folder,
                Caller& caller) {

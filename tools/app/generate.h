@@ -48,7 +48,7 @@ struct Generated {
 };
 
 /// Makes one sequence.
-/// \throws input::Error, bench::OutputError, sequence::TruthError, sim::PhysicsError,
+/// \throws input::Error, files::OutputError, sequence::TruthError, sim::PhysicsError,
 ///   std::exception. Complete frames are kept, and the same request resumes after them.
 Generated generate(const GenerateRequest& request, Caller& caller);
 

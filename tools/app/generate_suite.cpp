@@ -16,10 +16,6 @@ struct PlannedSequences {
   std::vector<std::vector<std::string>> commands;
 };
 
-std::filesystem::path folder_of(const GenerateRequest& request) {
-  return request.out.empty() ? "data" : request.out;
-}
-
 /// Draws the worlds of a shard. \return their scenario files.
 std::vector<std::filesystem::path> draw_part(const GenerateRequest& request,
                                              const suite::Shard& shard, Caller& caller) {
@@ -42,7 +38,7 @@ PlannedSequences plan_sequences(const GenerateRequest& request, SequencesMade& m
     paths = draw_part(request, shard, caller);
     shard = {};
   }
-  const std::filesystem::path folder = folder_of(request);
+  const std::filesystem::path folder = place_of(request.out, "data");
   PlannedSequences mine;
   std::size_t place = 0;
   for (const suite::PlannedScenario& planned : suite::plan({.paths = paths,
@@ -77,7 +73,7 @@ SequencesMade generate_suite(const GenerateRequest& request, Caller& caller) {
   SequencesMade made;
   const PlannedSequences sequences = plan_sequences(request, made, caller);
   // A folder that cannot be made is told once, not by each sequence.
-  std::filesystem::create_directories(folder_of(request));
+  std::filesystem::create_directories(place_of(request.out, "data"));
   const std::size_t total = sequences.names.size();
   std::size_t done = 0;
   try {

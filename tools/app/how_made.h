@@ -13,15 +13,15 @@ namespace lcs::app {
 
 /// Adds the program and the versions of its libraries to the facts of a provenance.
 /// \param versions empty if nothing was simulated.
-void add_program(nlohmann::ordered_json& facts, const sim::Versions& versions);
+void add_program(Json& facts, const sim::Versions& versions);
 /// Adds the SHA-256 of a program that was built from changed files, which its commit does not tell.
 /// For work that goes on or is joined.
-void add_changed_program(nlohmann::ordered_json& facts);
+void add_changed_program(Json& facts);
 
 /// Writes the command, the provenance, the date of the start (UTC), and seconds since. The file has
 /// neither the host's name nor the user's.
 /// \param command that repeats the result.
-/// \throws bench::OutputError
+/// \throws files::OutputError
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
                     const files::Provenance& provenance);
 
@@ -30,7 +30,7 @@ void note_start();
 
 /// Warns that a shorter result will replace a longer one. \param what "frames" or "runs", an entry
 /// of `about`. \param is_named whether the user named the folder, which is no default.
-/// \throws bench::OutputError if the earlier result in a default folder has more than `count`.
+/// \throws files::OutputError if the earlier result in a default folder has more than `count`.
 void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
                  std::size_t count, Caller& caller);
 

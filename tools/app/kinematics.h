@@ -28,7 +28,7 @@ struct KinematicsMade {
   std::filesystem::path folder;
 };
 
-/// \throws input::Error, bench::OutputError, sim::PhysicsError, std::exception; then no output is
+/// \throws input::Error, files::OutputError, sim::PhysicsError, std::exception; then no output is
 ///   written, and earlier output is unchanged.
 KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller);
 

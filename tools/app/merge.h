@@ -17,7 +17,7 @@ struct MergeRequest {
 
 Options options_of(MergeRequest& request);
 
-/// \throws bench::OutputError, std::exception; then nothing is written.
+/// \throws files::OutputError, std::exception; then nothing is written.
 SuiteMade merge(const MergeRequest& request, Caller& caller);
 
 }  // namespace lcs::app

@@ -50,7 +50,7 @@ std::string flag_of(const std::string& key);
 RunMade replay(const ReplayRequest& request, Caller& caller);
 
 /// Writes the scenario that the request describes.
-/// \throws input::Error, bench::OutputError; then nothing is written.
+/// \throws input::Error, files::OutputError; then nothing is written.
 void write_scenario(const ReplayRequest& request, const std::filesystem::path& path,
                     files::Overwrite overwrite);
 

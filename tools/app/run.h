@@ -58,7 +58,7 @@ struct RunMade {
   scenario::Scenario scenario = {};     ///< as it was run
 };
 
-/// \throws input::Error, bench::OutputError, sim::PhysicsError, std::exception, and an
+/// \throws input::Error, files::OutputError, sim::PhysicsError, std::exception, and an
 ///   exception of `caller.check`; then no output is written, and earlier output is unchanged.
 RunMade run(const RunRequest& request, Caller& caller);
 

@@ -30,7 +30,7 @@ struct Scored {
   std::optional<suite::SuiteResult> suite = {};  ///< with the figures of all runs anew
 };
 
-/// \throws input::Error, bench::OutputError, std::exception; then nothing is written.
+/// \throws input::Error, files::OutputError, std::exception; then nothing is written.
 Scored score(const ScoreRequest& request, Caller& caller);
 
 }  // namespace lcs::app

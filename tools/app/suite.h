@@ -61,7 +61,7 @@ class SuiteWatch {
   virtual void wipe() {}
 };
 
-/// \throws bench::OutputError, std::exception, and an exception of `caller.check`; then no suite is
+/// \throws files::OutputError, std::exception, and an exception of `caller.check`; then no suite is
 ///   written, and an earlier suite is unchanged. Finished runs are kept, and the same request goes
 ///   on from there.
 SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch);

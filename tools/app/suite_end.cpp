@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "scenes/worlds/worlds.h"
 #include "tools/files/output_file.h"
-#include "tools/files/provenance.h"
 #include "tools/report/report_page.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/beside_table.h"
@@ -38,10 +36,9 @@ fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
-void add_part(nlohmann::ordered_json& facts, const std::string& shard,
-              const suite::SuiteRuns& runs) {
+void add_part(Json& facts, const std::string& shard, const suite::SuiteRuns& runs) {
   std::size_t count = 0;
-  nlohmann::ordered_json scenarios = nlohmann::ordered_json::array();
+  Json scenarios = Json::array();
   for (const auto& [name, seeds] : runs) {
     scenarios.push_back({{"name", name}, {"seeds", seeds}});
     count += seeds.size();

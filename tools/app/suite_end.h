@@ -4,7 +4,6 @@
 
 #include <array>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "tools/app/caller.h"
 #include "tools/files/output.h"
+#include "tools/files/provenance.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/verdict.h"
@@ -47,8 +47,7 @@ std::vector<std::string> other_inputs(const std::filesystem::path& before,
 std::filesystem::path part_of(const std::string& detector, const std::string& own);
 
 /// Adds to the facts of a suite's provenance what differs between its parts.
-void add_part(nlohmann::ordered_json& facts, const std::string& shard,
-              const suite::SuiteRuns& runs);
+void add_part(Json& facts, const std::string& shard, const suite::SuiteRuns& runs);
 
 /// The names of these facts.
 inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", "scenarios"};
@@ -56,7 +55,7 @@ inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", 
 /// Writes suite.json, junit.xml, the report and so on, and commits the folder.
 /// \param folder has the runs, and for worlds their pictures.
 /// \param others the results of the detectors of `beside`.
-/// \throws bench::OutputError, std::runtime_error
+/// \throws files::OutputError, std::runtime_error
 SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::SuiteResult result,
                        std::vector<suite::SuiteResult> others,
                        const std::optional<suite::SuiteResult>& baseline, Caller& caller);

@@ -31,7 +31,7 @@ std::size_t jobs_at_once(int jobs);
 
 /// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.
 /// \return the scenario files of all of them.
-/// \throws bench::OutputError for a world that was edited, std::runtime_error.
+/// \throws files::OutputError for a world that was edited, std::runtime_error.
 std::vector<std::filesystem::path> draw_worlds(const std::vector<worlds::Kept>& chosen,
                                                std::size_t jobs, Caller& caller);
 
@@ -40,7 +40,7 @@ void add_origins(suite::SuiteResult& result);
 
 /// Writes worlds/ into the folder of a suite: a picture of each world, from its first run.
 /// \param plan the plan that `result` came from, in the same order.
-/// \throws bench::OutputError; std::runtime_error if a run's files cannot be read.
+/// \throws files::OutputError; std::runtime_error if a run's files cannot be read.
 void write_sheets(const std::filesystem::path& folder,
                   const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
                   Caller& caller);

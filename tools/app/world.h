@@ -28,7 +28,7 @@ struct WorldMade {
   std::filesystem::path folder;
 };
 
-/// \throws bench::OutputError, std::exception; then no world is written.
+/// \throws files::OutputError, std::exception; then no world is written.
 WorldMade world(const WorldRequest& request, Caller& caller);
 
 }  // namespace lcs::app

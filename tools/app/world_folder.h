@@ -13,11 +13,11 @@ namespace lcs::app {
 inline constexpr const char* kPlanFile = "plan.png";
 inline constexpr const char* kSheetFile = "sheet.png";
 
-/// Files that a world's folder may hold, for `bench::Output`.
+/// Files that a world's folder may hold, for `files::Output`.
 files::ResultNames world_files();
 
 /// Writes NAME.yaml, scene.xml, plan.png, textures/ and meshes/ into a folder.
-/// \throws bench::OutputError
+/// \throws files::OutputError
 void write_world(const worlds::DrawnWorld& world, const std::filesystem::path& folder);
 
 /// Path of a world's stored scenario file in a folder of worlds; the name has a digest of the

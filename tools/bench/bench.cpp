@@ -75,6 +75,7 @@ void store_result(const FrameResult& said, double recording::FrameTimes::*step_t
   frame.verdicts = said.verdicts;
   frame.reasons = said.reasons;
   frame.layers = said.layers;
+  frame.paper = said.paper;
   frame.gaps = said.gaps;
   if (step_time == nullptr) return;
   recording::FrameTimes times = frame.times.value_or(recording::FrameTimes{});

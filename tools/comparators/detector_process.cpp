@@ -22,6 +22,7 @@ namespace lcs::comparators {
 namespace {
 
 using namespace std::chrono_literals;
+using input::Descriptor;
 
 constexpr auto kTick = 50ms;        // between calls of on_wait
 constexpr auto kPatience = 2s;      // for a process to exit after a request
@@ -39,14 +40,6 @@ std::string for_shell(const std::string& command) {
   const bool is_list = command.find_first_of(";&|(){}<>\n!") != std::string::npos;
   const std::string first = command.substr(0, command.find(' '));
   return is_list || first.find('=') != std::string::npos ? command : "exec " + command;
-}
-
-/// Makes the kernel end a process group when the last writer of a pipe is gone.
-/// \param reads the pipe's read end, inherited by the group.
-void end_with_writer(int reads, pid_t group) {
-  ::fcntl(reads, F_SETSIG, SIGKILL);
-  ::fcntl(reads, F_SETOWN, -group);
-  ::fcntl(reads, F_SETFL, O_ASYNC);
 }
 
 /// Blocks SIGPIPE: writing to an ended program then fails with an error. The signal remains in use
@@ -91,27 +84,26 @@ std::string beginning_of(const std::string& text) {
 DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
                                  std::function<void()> on_wait)
     : timeout_s_(timeout_s), on_wait_(std::move(on_wait)) {
-  Pipe its_in, its_out, its_err, its_lifeline;
-  const auto connect = [](Pipe& reads, Pipe& writes) {
+  Descriptor its_in, its_out, its_err, its_lifeline;
+  const auto connect = [](Descriptor& reads, Descriptor& writes) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_connect();
-    reads.take(ends[0]);
-    writes.take(ends[1]);
+    reads = Descriptor(ends[0]);
+    writes = Descriptor(ends[1]);
   };
   connect(its_in, in_);
   connect(out_, its_out);
   connect(err_, its_err);
   connect(its_lifeline, lifeline_);
-  if (::fcntl(its_lifeline.get(), F_SETFD, 0) != 0) fail_to_connect();  // inherited by the program
-  for (const Pipe* own : {&in_, &out_, &err_}) {
+  for (const Descriptor* own : {&in_, &out_, &err_}) {
     if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail_to_connect();
   }
   ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // speeds up pictures; may fail
 
   const std::array<std::string, 3> shell{"sh", "-c", for_shell(command)};
-  pid_ = process::start_child("/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
-                              {.when_parent_ends = SIGKILL, .own_group = true});
-  end_with_writer(its_lifeline.get(), pid_);
+  pid_ = process::start_child(
+      "/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
+      {.when_parent_ends = SIGKILL, .own_group = true, .lifeline = its_lifeline.get()});
 }
 
 DetectorProcess::~DetectorProcess() {
@@ -122,7 +114,7 @@ DetectorProcess::~DetectorProcess() {
   while (!has_ended() && Clock::now() < deadline) {
     // drains its output, so that a full pipe does not block it
     std::array<char, 4096> rest{};
-    for (const Pipe* pipe : {&out_, &err_}) {
+    for (const Descriptor* pipe : {&out_, &err_}) {
       while (pipe->is_open() && ::read(pipe->get(), rest.data(), rest.size()) > 0) {
       }
     }
@@ -224,7 +216,7 @@ void DetectorProcess::wait(bool to_write, Clock::time_point deadline) const {
 
 void DetectorProcess::read_what_is_there() {
   std::array<char, 65536> some{};
-  const auto drain = [&](Pipe& pipe, std::string& text, std::size_t most) {
+  const auto drain = [&](Descriptor& pipe, std::string& text, std::size_t most) {
     // bounded, in case it writes endlessly
     for (int i = 0; i < 64 && pipe.is_open() && text.size() <= most; ++i) {
       const ssize_t got = ::read(pipe.get(), some.data(), some.size());

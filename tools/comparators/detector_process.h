@@ -4,7 +4,6 @@
 #pragma once
 
 #include <sys/types.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <functional>
@@ -13,8 +12,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "scenarios/input/descriptor.h"
 
 namespace lcs::comparators {
 
@@ -40,8 +40,6 @@ class DetectorProcess {
   /// \throws std::system_error if no process can be started.
   DetectorProcess(const std::string& command, double timeout_s, std::function<void()> on_wait);
   ~DetectorProcess();
-  DetectorProcess(const DetectorProcess&) = delete;
-  DetectorProcess& operator=(const DetectorProcess&) = delete;
 
   /// Sends a line (including its end) and the bytes after it.
   /// \return the answering line, without its end.
@@ -60,26 +58,6 @@ class DetectorProcess {
 
  private:
   using Clock = std::chrono::steady_clock;
-  class Pipe {
-   public:
-    Pipe() = default;
-    ~Pipe() { close(); }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    void take(int descriptor) {
-      close();
-      descriptor_ = descriptor;
-    }
-    void close() {
-      if (is_open()) ::close(std::exchange(descriptor_, -1));
-    }
-    int get() const { return descriptor_; }
-    bool is_open() const { return descriptor_ >= 0; }
-
-   private:
-    int descriptor_ = -1;
-  };
-
   Clock::time_point time_is_up() const;  ///< of the current request
   void wait(bool to_write, Clock::time_point deadline) const;
   void read_what_is_there();
@@ -95,10 +73,10 @@ class DetectorProcess {
   pid_t pid_ = -1;
   std::optional<int> status_;  ///< of waitpid, once called
   std::size_t most_answer_ = kMostAnswer;
-  Pipe in_, out_, err_;  ///< standard files of the program
-  Pipe lifeline_;        ///< never written to; its end ends the group
-  std::string answers_;  ///< read but not yet requested
-  std::string stderr_;   ///< the last part of it
+  input::Descriptor in_, out_, err_;  ///< standard files of the program
+  input::Descriptor lifeline_;        ///< never written to; its end ends the group
+  std::string answers_;               ///< read but not yet requested
+  std::string stderr_;                ///< the last part of it
 };
 
 }  // namespace lcs::comparators

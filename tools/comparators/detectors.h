@@ -19,7 +19,7 @@ namespace lcs::comparators {
 struct DetectorKind {
   std::string_view name;
   std::string_view purpose;    ///< one human-readable line
-  bool layered = false;        ///< as `bench::DetectorInfo::layered`
+  bool layered = false;        ///< as `recording::DetectorInfo::layered`
   bool sees_pictures = false;  ///< uses pictures besides corners and motion
   /// Null for an external detector. \throws input::Error for parameters that the detector does
   /// not accept.

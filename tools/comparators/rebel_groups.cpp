@@ -45,10 +45,11 @@ const FrameResult& RebelGroups::group(std::span<const Eigen::Vector2f> corners_p
   }
   link(motions);
 
-  members_.collect(sets_);
-  members_.visit([&](std::span<const int> members) {
+  members_.collect(sets_.roots(), points_.size());
+  for (std::size_t root = 0; root < points_.size(); ++root) {
+    const std::span<const int> members = members_.of(root);
     if (std::ssize(members) >= parameters_.least_corners) add_group(members, motions, dt_s);
-  });
+  }
   name_squares();
 
   for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "filter/matching/disjoint_sets.h"
+#include "filter/matching/members.h"
 #include "filter/matching/point_grid.h"
 #include "filter/squares/convex_hull.h"
 #include "filter/types/frame_result.h"
@@ -60,7 +61,7 @@ class RebelGroups {
   std::vector<Vec2> points_;
   std::vector<int> corner_of_;  ///< of each point
   DisjointSets sets_;           ///< of points with similar motion
-  SetMembers members_;
+  Members members_;
   PointGrid grid_;
   ConvexHull hull_;
   FrameResult result_;

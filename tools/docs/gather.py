@@ -5,7 +5,6 @@ becomes a list of its files. The page keys.md is made from the scenarios' JSON S
 """
 
 import json
-import os
 import posixpath
 import re
 import subprocess
@@ -69,8 +68,7 @@ def keys():
     head = "\n| key | is |\n|---|---|\n"
     text += head + rows({key: {"description": value.get("description", "")} for key, value in schema["properties"].items()})
     for key, value in schema["properties"].items():
-        inside = [value, value.get("items", {}), value.get("additionalProperties")]
-        for part in inside:
+        for part in (value, value.get("items", {}), value.get("additionalProperties")):
             if isinstance(part, dict) and part.get("properties"):
                 text += f"\n## {key}\n" + head + rows(part["properties"])
     return text
@@ -115,6 +113,6 @@ def on_page_markdown(markdown, page, config, files):
         shown = page_of(path)
         if shown == path:
             return match[0]
-        return f"]({os.path.relpath(shown, posixpath.dirname(page.file.src_uri) or '.')}{match[2] or ''})"
+        return f"]({posixpath.relpath(shown, posixpath.dirname(page.file.src_uri) or '.')}{match[2] or ''})"
 
     return LINK.sub(link, markdown)

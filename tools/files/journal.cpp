@@ -12,7 +12,6 @@
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 #include "scenarios/input/sha256.h"
-#include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::files {
@@ -49,7 +48,7 @@ bool JournalReader::read_head() {
   const std::string_view made_of = std::string_view(text).substr(ends[1], ends[2] - 1 - ends[1]);
   if (!made_of.starts_with(kComment)) refuse(2, "this line states nothing");
   try {
-    provenance_ = Provenance::from(parse_json<Provenance::Json>(made_of.substr(kComment.size())));
+    provenance_ = Provenance::from(parse_json<Json>(made_of.substr(kComment.size())));
   } catch (const std::runtime_error& error) {
     refuse(2, error.what());
   }
@@ -113,16 +112,12 @@ Journal::Journal(fs::path file, std::string_view sign, const Provenance& provena
   } else if (!head_.starts_with(beginning(path_, head_.size() + 1))) {
     reader.refuse(0, "the head of the journal is cut off");  // or belongs to other work
   }
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC,
-                 0666);
-  if (file_ < 0 || ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  file_ = input::Descriptor(::open(path_.c_str(), kFlags, 0666));
+  if (!file_.is_open() || ::ftruncate(file_.get(), static_cast<off_t>(size_)) != 0) {
     fail_to("write", path_, errno);
   }
   if (size_ == 0) append(head_);
-}
-
-Journal::~Journal() {
-  if (file_ >= 0) ::close(file_);
 }
 
 void Journal::add(std::string_view row) {
@@ -131,12 +126,12 @@ void Journal::add(std::string_view row) {
 
 void Journal::append(std::string_view text) {
   for (std::string_view rest = text; !rest.empty();) {
-    const ssize_t written = ::write(file_, rest.data(), rest.size());
+    const ssize_t written = ::write(file_.get(), rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       const int error = errno;
       // A full disk has room for less. If this fails, too, the next process does it.
-      if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) fail_to("write", path_, errno);
+      if (::ftruncate(file_.get(), static_cast<off_t>(size_)) != 0) fail_to("write", path_, errno);
       fail_to("write", path_, error);
     }
     rest.remove_prefix(static_cast<std::size_t>(written));

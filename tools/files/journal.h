@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "scenarios/input/descriptor.h"
 #include "tools/files/provenance.h"
 
 namespace lcs::files {
@@ -60,9 +61,6 @@ class Journal {
   ///   another provenance, or has a row with a wrong checksum. OutputError
   Journal(std::filesystem::path file, std::string_view sign, const Provenance& provenance,
           std::string_view columns, std::string remedy, const JournalReader::Take& take);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   /// Appends a row without line ends; it is in the file when this returns, or not at all.
   /// \throws OutputError
@@ -74,7 +72,7 @@ class Journal {
   std::filesystem::path path_;
   std::string head_;
   std::size_t size_ = 0;  ///< bytes
-  int file_ = -1;
+  input::Descriptor file_;
 };
 
 }  // namespace lcs::files

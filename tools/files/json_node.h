@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,18 @@
 
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
+
+namespace lcs {
+
+/// Keeps the order of its keys.
+using Json = nlohmann::ordered_json;
+
+/// JSON has finite numbers only.
+inline Json number_or_null(std::optional<double> number) {
+  return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
+}
+
+}  // namespace lcs
 
 namespace lcs::files {
 
@@ -57,8 +70,7 @@ Json parse_json(std::string_view text, const input::Source& where, std::string_v
   try {
     return parse_json<Json>(text);
   } catch (const JsonError& error) {
-    throw input::Error({where.file, where.line + error.lines},
-                       fmt::format("{}; {}", error.what(), remedy));
+    throw input::Error({where.file, where.line + error.lines}, "{}; {}", error.what(), remedy);
   }
 }
 
@@ -73,7 +85,6 @@ std::string json_text(const Json& json, int indent = -1) {
 /// another type, such as "scenarios[0].seed is not a whole number from 0".
 class JsonNode {
  public:
-  using Json = nlohmann::ordered_json;
   class Error : public std::runtime_error {
    public:
     using std::runtime_error::runtime_error;
@@ -172,12 +183,11 @@ class JsonNode {
 template <class Use>
 std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
                                               const input::FileKind& kind, const Use& use) {
-  const auto json =
-      parse_json<JsonNode::Json>(input::read_file(file, kind), {file.string(), 1}, kind.remedy);
+  const auto json = parse_json<Json>(input::read_file(file, kind), {file.string(), 1}, kind.remedy);
   try {
     return use(JsonNode(json, ""));
   } catch (const JsonNode::Error& error) {
-    throw input::Error({file.string(), 0}, fmt::format("{}; {}", error.what(), kind.remedy));
+    throw input::Error({file.string(), 0}, "{}; {}", error.what(), kind.remedy);
   }
 }
 

@@ -221,19 +221,17 @@ void in_second_process(const std::function<void()>& work) {
 
 FolderLock::FolderLock(const fs::path& folder, bool is_shared)
     : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)),
-      problem_(file_ < 0 ? errno : 0) {
-  is_held_ = file_ >= 0 && (is_shared || ::flock(file_, LOCK_EX | LOCK_NB) == 0);
-  is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
-  is_possible_ = file_ < 0 || is_held_ || (errno != ENOSYS && errno != ENOTSUP && errno != ENOLCK);
+      problem_(file_.is_open() ? 0 : errno) {
+  is_held_ = file_.is_open() && (is_shared || ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0);
+  is_of_another_ = file_.is_open() && !is_held_ && errno == EWOULDBLOCK;
+  is_possible_ =
+      !file_.is_open() || is_held_ || (errno != ENOSYS && errno != ENOTSUP && errno != ENOLCK);
   // Until it was locked, its holder may have removed it, and another have made one of its name.
   struct stat locked {
   }, named{};
-  is_held_ = is_held_ && ::fstat(file_, &locked) == 0 && ::lstat(folder.c_str(), &named) == 0 &&
-             locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
-}
-
-FolderLock::~FolderLock() {
-  if (file_ >= 0) ::close(file_);
+  is_held_ = is_held_ && ::fstat(file_.get(), &locked) == 0 &&
+             ::lstat(folder.c_str(), &named) == 0 && locked.st_dev == named.st_dev &&
+             locked.st_ino == named.st_ino;
 }
 
 void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_folder) {
@@ -336,8 +334,8 @@ Output::Output(const fs::path& target, Overwrite overwrite) : overwrite_(overwri
   const fs::file_status status = fs::status(target, error);  // /dev/stdout is a link
   is_direct_ = fs::is_character_file(status) || fs::is_fifo(status);
   if (is_direct_) {
-    pipe_ = ::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (pipe_ < 0 && errno == ENXIO) {
+    pipe_ = input::Descriptor(::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    if (!pipe_.is_open() && errno == ENXIO) {
       throw OutputError("{} is a pipe that nobody reads; start its reader first", target.string());
     }
     target_ = staging_ = target;
@@ -367,7 +365,6 @@ void Output::prepare() {
 }
 
 Output::~Output() {
-  if (pipe_ >= 0) ::close(pipe_);
   std::erase(under_way(), this);
   if (!committed_ && !is_kept_) remove_all_made();
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/input/descriptor.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::files {
@@ -21,9 +22,6 @@ class [[nodiscard]] FolderLock {
   /// Does not wait if another process holds the lock.
   /// \param is_shared opens the folder without a lock.
   explicit FolderLock(const std::filesystem::path& folder, bool is_shared = false);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
   bool is_held() const { return is_held_; }
   bool is_of_another() const { return is_of_another_; }
@@ -34,7 +32,8 @@ class [[nodiscard]] FolderLock {
   int problem() const { return problem_; }
 
  private:
-  int file_ = -1, problem_ = 0;
+  input::Descriptor file_;
+  int problem_ = 0;
   bool is_held_ = false;
   bool is_of_another_ = false;
   bool is_possible_ = true;
@@ -144,7 +143,7 @@ class Output {
   std::vector<std::filesystem::path> made_parents_;  ///< innermost last
   std::optional<FolderLock> lock_;                   ///< on `own_`
   bool is_direct_ = false;                           ///< a device or a pipe
-  int pipe_ = -1;  ///< held open, so that its reader does not see an end too early
+  input::Descriptor pipe_;  ///< held open, so that its reader does not see an end too early
   bool is_kept_ = false;
   bool committed_ = false;
 };

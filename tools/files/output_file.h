@@ -46,6 +46,10 @@ std::string beginning(const std::filesystem::path& file, std::size_t bytes);
 /// All files and folders in a folder and below. \throws OutputError
 std::vector<std::filesystem::directory_entry> entries_below(const std::filesystem::path& folder);
 
+enum class Packing { gzip, zlib };
+/// \throws std::bad_alloc
+std::string compressed(std::string_view bytes, Packing packing);
+
 /// A file, created or emptied on construction. Only `close` ensures that all of it was written.
 class OutputFile {
  public:

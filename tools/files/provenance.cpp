@@ -10,7 +10,6 @@
 #include "scenarios/input/inputs_read.h"
 #include "scenarios/input/message.h"
 #include "scenarios/input/sha256.h"
-#include "tools/files/json_node.h"
 #include "tools/files/output.h"
 
 namespace lcs::files {
@@ -23,10 +22,10 @@ constexpr const char* kRead = "read";
 constexpr std::array<std::string_view, 4> kCircumstances{"command", "started", "wall_s", "cpu_s"};
 
 /// A fact's value in a message.
-std::string text_of(const Provenance::Json& facts, const std::string& name) {
+std::string text_of(const Json& facts, const std::string& name) {
   constexpr std::size_t kMostShown = 200;  // bytes
   if (!facts.contains(name)) return "not stated";
-  const Provenance::Json& value = facts.at(name);
+  const Json& value = facts.at(name);
   const std::string text = value.is_string() ? value.get<std::string>() : json_text(value);
   return fmt::format(
       "'{}'",
@@ -35,7 +34,7 @@ std::string text_of(const Provenance::Json& facts, const std::string& name) {
 
 }  // namespace
 
-Provenance::Json Provenance::json() const {
+Json Provenance::json() const {
   Json json = facts;
   json[kRead] = read;
   return json;
@@ -70,7 +69,7 @@ void Provenance::add_read(const Provenance& of_unit, const std::string& unit) {
   }
 }
 
-Provenance provenance_of(Provenance::Json facts, const fs::path& base) {
+Provenance provenance_of(Json facts, const fs::path& base) {
   Provenance provenance{.facts = std::move(facts)};
   const std::vector<fs::path> own = folders_under_way();
   std::error_code error;
@@ -88,7 +87,7 @@ Provenance provenance_of(Provenance::Json facts, const fs::path& base) {
 
 std::string difference(const Provenance& a, const Provenance& b,
                        std::span<const std::string_view> but) {
-  for (const Provenance::Json* facts : {&a.facts, &b.facts}) {
+  for (const Json* facts : {&a.facts, &b.facts}) {
     for (const auto& [name, value] : facts->items()) {
       const bool may_differ = std::ranges::count(but, name) > 0;
       const bool is_same =

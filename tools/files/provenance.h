@@ -6,16 +6,15 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "tools/files/json_node.h"
+
 namespace lcs::files {
 
 struct Provenance {
-  using Json = nlohmann::ordered_json;
-
   /// Settings, program, versions and so on, by name.
   Json facts = Json::object();
   /// SHA-256 of each file that was read, by its path: relative to the working folder if it lies in
@@ -37,7 +36,7 @@ struct Provenance {
 
 /// With the files that this process has read so far (scenarios/input/inputs_read.h), without the
 /// outputs that it writes. \param base absolute folder of the paths; "": the working folder.
-Provenance provenance_of(Provenance::Json facts, const std::filesystem::path& base = {});
+Provenance provenance_of(Json facts, const std::filesystem::path& base = {});
 
 /// The file with the provenance in a folder of results (tools/app/how_made.h).
 inline constexpr const char* kHowMadeFile = "run.json";

@@ -2,8 +2,6 @@
 (() => {
 'use strict';
 
-const data = JSON.parse(document.getElementById('data').textContent);
-
 // ---- Tables
 
 /** The lines of a CSV text as objects; an empty cell becomes null. */
@@ -19,9 +17,9 @@ const rows = (table, where) => tables[table].filter((row) =>
   Object.entries(where || {}).every(([column, value]) => row[column] === value));
 const values = (table, column) => [...new Set(tables[table].map((row) => row[column]))];
 
-const table = (heads, lines) => el('div', { class: 'scroll' }, el('table', null,
-  el('thead', null, el('tr', null, ...heads.map((head) => el('th', { class: 'left' }, head)))),
-  el('tbody', null, ...lines.map((cells) => el('tr', null, ...cells.map((cell) => el('td', { class: 'left' }, cell)))))));
+const left = (tag, cells) => cells.map((cell) => el(tag, { class: 'left' }, cell));
+const leftTable = (heads, lines) => table(null, left('th', heads),
+  lines.map((cells) => el('tr', null, ...left('td', cells))));
 const figure = (value) => !isNumber(value) ? '–'
   : value !== 0 && Math.abs(value) < 0.01 ? value.toExponential(2) : String(Number(value.toPrecision(4)));
 
@@ -66,12 +64,12 @@ document.getElementById('head').append(el('h1', null, 'When does the kinematics 
   el('p', { class: 'quiet' }, data.subject), el('p', null, el('b', null, data.bottom_line)));
 document.getElementById('page').append(
   section('The answer', 'Is each part of the model within ' + data.tolerance_px + ' px?',
-    table(['', '', ''], data.statements.map((s) => [s.topic, s.text, el('span', null, el('span',
+    leftTable(['', '', ''], data.statements.map((s) => [s.topic, s.text, el('span', null, el('span',
       { class: 'badge ' + ({ yes: 'met', no: 'unmet' }[s.verdict.split(':')[0]] || 'new') }, s.verdict.split(':')[0]), s.verdict.replace(/^\w+:/, ''))])),
     el('details', null, el('summary', null, 'Each figure beside the one that theory expects'),
-      table(['figure', 'measured', 'expected', 'unit'], tables.answer.map((f) => [f.figure, figure(f.value), figure(f.expected), f.unit])))),
+      leftTable(['figure', 'measured', 'expected', 'unit'], tables.answer.map((f) => [f.figure, figure(f.value), figure(f.expected), f.unit])))),
   section('Rendered drives', 'The filter’s own landmarks compared with the simulator’s truth: end-point error, px, median and (95 in 100).',
-    table(['drive', 'motion told by', 'rotation', ...DEPTHS.map((d) => d.name)], rows('drives', DEPTHS[0].where).map((row) =>
+    leftTable(['drive', 'motion told by', 'rotation', ...DEPTHS.map((d) => d.name)], rows('drives', DEPTHS[0].where).map((row) =>
       [row.drive, row.told_by, row.rotation.replace('_', ' '), ...DEPTHS.map((d) => {
         const [{ median_px, p95_px }] = rows('drives', { drive: row.drive, told_by: row.told_by, rotation: row.rotation, ...d.where });
         return digits(median_px) + ' (' + digits(p95_px) + ')';

@@ -12,7 +12,7 @@ namespace lcs::kinematics {
 /// All files that `write_study` may write.
 files::ResultNames study_files();
 
-/// \throws bench::OutputError
+/// \throws files::OutputError
 void write_study(const std::filesystem::path& folder, const Study& study);
 
 }  // namespace lcs::kinematics

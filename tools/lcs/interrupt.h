@@ -14,7 +14,7 @@ bool is_interrupted();
 /// To be called between two frames. A signal handler only records the signal. If the process still
 /// runs 20 s after a termination signal, it exits at once without cleanup.
 /// \throws Interrupted if SIGINT, SIGTERM, SIGHUP or SIGXCPU has arrived since the program started;
-///   bench::OutputError if SIGPIPE or SIGXFSZ has arrived: a write failed.
+///   files::OutputError if SIGPIPE or SIGXFSZ has arrived: a write failed.
 void check_interrupted();
 
 }  // namespace lcs::tools

@@ -14,7 +14,6 @@
 #include "tools/files/output.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/preview/preview.h"
 
@@ -84,10 +83,11 @@ ExitCode preview(const PreviewOptions& options) {
     outputs.push_back(&world.emplace(options.mjcf, files::overwrite(options.force)));
   }
   const preview::Preview p = [&] {
-    ConsoleProgress progress(scenario.name, scenario.frames, options.quiet);
+    const auto progress =
+        Terminal(options.quiet).progress(scenario.name, scenario.frames, "frames");
     return preview::preview(scenario, [&](int done) {
       check_interrupted();
-      progress.show(done);
+      progress->show(done);
     });
   }();
   if (world) {

@@ -8,7 +8,6 @@
 #include "tools/app/suite.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/suite_end.h"
-#include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -93,8 +92,8 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
 ExitCode suite(const SuiteOptions& options) {
   Terminal terminal(options.end.quiet);
   if (options.list) return list_plan(app::plan_suite(options.request, terminal).plan);
-  ConsoleSuiteProgress progress(options.end.quiet);
-  return show_suite(app::suite(options.request, terminal, progress), options.request.place,
+  const auto progress = suite_progress(options.end.quiet);
+  return show_suite(app::suite(options.request, terminal, *progress), options.request.place,
                     options.end);
 }
 

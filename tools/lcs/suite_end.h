@@ -1,9 +1,11 @@
 /// \file
-/// The end of a suite on the terminal: tables and exit code. `lcs suite` and `lcs merge` share it.
+/// A suite on the terminal: its progress, and its end with tables and exit code, which `lcs suite`
+/// and `lcs merge` share.
 #pragma once
 
-#include "tools/app/option.h"
-#include "tools/app/suite_end.h"
+#include <memory>
+
+#include "tools/app/suite.h"
 #include "tools/lcs/exit_codes.h"
 
 namespace lcs::tools {
@@ -13,6 +15,10 @@ struct SuiteEndOptions {
   bool worst_first = false;
   bool quiet = false;
 };
+
+/// Shows on stderr a line per finished run, and on a terminal a status line.
+/// \param quiet prints nothing.
+std::unique_ptr<app::SuiteWatch> suite_progress(bool quiet);
 
 /// Adds `--fail-on-regression`, `--worst-first` and `--quiet`.
 void add_suite_end(app::Options& all, SuiteEndOptions& options);

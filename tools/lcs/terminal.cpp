@@ -18,7 +18,6 @@
 #include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/progress.h"
 
 namespace lcs::tools {
 namespace {
@@ -109,11 +108,6 @@ void Terminal::check() {
 
 void Terminal::note(const std::string& line) {
   if (!quiet_) tools::tell(line);
-}
-
-std::unique_ptr<app::Progress> Terminal::progress(const std::string& name, int total,
-                                                  const std::string& unit) {
-  return std::make_unique<ConsoleProgress>(name, total, quiet_, unit);
 }
 
 void finish_out() {

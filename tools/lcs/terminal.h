@@ -19,7 +19,7 @@ namespace lcs::tools {
 /// get that descriptor and receive the printed text.
 void open_standard_descriptors();
 
-/// Writes to standard output. \throws bench::OutputError if the write fails, Interrupted if a
+/// Writes to standard output. \throws files::OutputError if the write fails, Interrupted if a
 /// termination signal arrives while nobody reads the output.
 void write_out(const std::string& text);
 /// Writes to standard error and ignores failures.

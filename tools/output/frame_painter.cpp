@@ -71,6 +71,7 @@ cv::Mat3b painted(const PanelSheet& sheet, const recording::RunInfo& run,
                        .corners_px = frame.corners_px,
                        .verdicts = frame.verdicts,
                        .layers = frame.layers,
+                       .paper = frame.paper,
                        .truth = truth,
                        .caption = fmt::format("{}  frame {}  {:.2f} s", run.scenario, frame.index,
                                               static_cast<double>(frame.t_ns) * 1e-9)};

@@ -246,7 +246,7 @@ void add_psi(std::size_t regions, PanelText& text) {
 }
 
 PanelText draw_corners(Pen& pen, const PanelContent& content) {
-  for (const Collector& collector : content.layers.collectors) {
+  for (const Collector& collector : content.paper.collectors) {
     pen.circle(collector.location, collector.radius, colour::kCollector, 1);
   }
   std::size_t ignored = 0;
@@ -262,7 +262,7 @@ PanelText draw_corners(Pen& pen, const PanelContent& content) {
     text.caption += fmt::format(", {} ignored", ignored);
     text.legend.push_back({colour::kIgnoredCorner, "ignored"});
   }
-  if (const std::size_t collectors = content.layers.collectors.size(); collectors > 0) {
+  if (const std::size_t collectors = content.paper.collectors.size(); collectors > 0) {
     text.caption += fmt::format(", {} collectors (lambda)", collectors);
     text.legend.push_back(
         {colour::kCollector, "collector lambda: where a circle looks for corners", Sample::line});
@@ -312,7 +312,7 @@ PanelText draw_circles(Pen& pen, const PanelContent& content) {
       pen.mark(circle.location, content.rebel_circle_marks[i]);
     }
   }
-  const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::circle);
+  const std::size_t ignored = draw_ignored(pen, content.paper.ignored, IgnoreRegion::Shape::circle);
   PanelText text{fmt::format("{} normal circles, {} rebel{}", layers.normal_circles.size(),
                              layers.rebel_circles.size(), tally(content.rebel_circle_marks)),
                  {{colour::kNormalCircle, "normal: edges of like motion", Sample::line},
@@ -336,7 +336,8 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
   for (const Square& square : layers.squares) {
     if (square.outline.count > 1) pen.polygon(square.outline.vertices(), colour::kOutline);
   }
-  const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::rectangle);
+  const std::size_t ignored =
+      draw_ignored(pen, content.paper.ignored, IgnoreRegion::Shape::rectangle);
   for (std::size_t i = 0; i < layers.squares.size(); ++i) {
     const Square& square = layers.squares[i];
     if (!content.square_marks.empty()) pen.mark(square.location, content.square_marks[i]);

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "filter/types/layers.h"
+#include "filter/types/paper_layers.h"
 
 namespace lcs::output {
 
@@ -55,6 +56,7 @@ struct PanelContent {
   std::span<const Eigen::Vector2f> corners_px;
   std::span<const Verdict> verdicts;  ///< of each corner
   const Layers& layers;
+  const PaperLayers& paper;
   std::span<const TruthBox> truth;
   std::string caption;  ///< of the frame, such as "frame 12  1.20 s"; printed over all panels
   /// \name Of each corner, rebel circle and square; empty if the truth is unknown.

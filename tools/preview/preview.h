@@ -56,7 +56,7 @@ struct Preview {
 /// \param on_frame as in `sim::survey`. \throws like `sim::survey`.
 Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame = {});
 
-/// Writes one HTML file with embedded pictures. \throws bench::OutputError
+/// Writes one HTML file with embedded pictures. \throws files::OutputError
 void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
                    const Preview& preview);
 

@@ -2,9 +2,12 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <condition_variable>
@@ -32,6 +35,12 @@ struct Start {
   // Ends the child when the parent ends for any reason.
   if (::prctl(PR_SET_PDEATHSIG, start.options.when_parent_ends) != 0 || ::getppid() != parent) {
     ::_exit(kCannotStart);
+  }
+  if (const int lifeline = start.options.lifeline; lifeline >= 0) {
+    ::fcntl(lifeline, F_SETSIG, SIGKILL);
+    ::fcntl(lifeline, F_SETOWN, -::getpid());
+    ::fcntl(lifeline, F_SETFL, O_ASYNC);
+    ::fcntl(lifeline, F_SETFD, 0);  // inherited by the program
   }
   const auto plug = [](int file, int standard) {
     if (file < 0) file = ::open("/dev/null", O_RDWR);
@@ -118,6 +127,20 @@ class Starter {
 };
 
 }  // namespace
+
+MemoryFile::MemoryFile(const char* problem) : file_(::memfd_create("lcs", MFD_CLOEXEC)) {
+  if (!file_.is_open()) throw std::system_error(errno, std::generic_category(), problem);
+}
+
+std::string MemoryFile::text(std::size_t most) const {
+  struct stat status = {};
+  if (::fstat(file_.get(), &status) != 0) return "";
+  std::string text(std::min(static_cast<std::size_t>(status.st_size), most), '\0');
+  const off_t begin = status.st_size - static_cast<off_t>(text.size());
+  const ssize_t got = ::pread(file_.get(), text.data(), text.size(), begin);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return text;
+}
 
 pid_t start_child(const char* program, std::span<const std::string> arguments,
                   const StandardFiles& files, const ChildOptions& options) {

@@ -4,8 +4,12 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
+
+#include "scenarios/input/descriptor.h"
 
 namespace lcs::process {
 
@@ -14,9 +18,26 @@ struct StandardFiles {
   int in = -1, out = -1, err = -1;  ///< below 0: /dev/null
 };
 
+/// A file in memory that a child writes.
+class MemoryFile {
+ public:
+  /// \param problem what to say if none can be made. \throws std::system_error
+  explicit MemoryFile(const char* problem);
+
+  int descriptor() const { return file_.get(); }
+  /// Its last bytes; "" if they cannot be read.
+  std::string text(std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+
+ private:
+  input::Descriptor file_;
+};
+
 struct ChildOptions {
   int when_parent_ends = 0;  ///< signal to the child when this process ends
   bool own_group = false;    ///< for Ctrl-C not to reach it, and to end all its children
+  /// The read end of a pipe, or -1. The kernel kills the child's own group when the pipe's last
+  /// writer is gone. Set before the child's program runs, so that no moment is without it.
+  int lifeline = -1;
 };
 
 /// \param program path; if it cannot be run, the child exits with 127, as in a shell.

@@ -79,7 +79,8 @@ constexpr bool kIsNumber = !requires(Member & member) {
   member.value;
 };
 
-/// The number that NumPy stores for a numeric field of `bench::fields`; an enumerator's is uint8.
+/// The number that NumPy stores for a numeric field of `recording::fields`; an enumerator's is
+/// uint8.
 template <class Member>
 auto number_of(const Member& member) {
   if constexpr (requires { member.number; }) {
@@ -118,7 +119,8 @@ class RowFormat {
   std::size_t size_ = 0;
 };
 
-/// Visits the fields of `bench::fields` and also `rebel`, which the files encode as separate lists.
+/// Visits the fields of `recording::fields` and also `rebel`, which the files encode as separate
+/// lists.
 template <class Item, class Visit>
 void all_fields(Item& item, const Visit& visit) {
   if constexpr (requires { item.rebel; }) visit("rebel", item.rebel);

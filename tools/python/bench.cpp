@@ -214,6 +214,13 @@ py::dict dict_of(const app::RunMade& made, PythonCaller& caller) {
                   "detectors"_a = detectors, "messages"_a = caller.messages());
 }
 
+py::dict dict_of(const app::WorldMade& made, PythonCaller&) {
+  return py::dict("file"_a = made.folder / (worlds::name_of(made.world) + ".yaml"),
+                  "objects"_a = made.world.bodies.size(),
+                  "movers"_a = made.world.scenario.actors.size(),
+                  "drawn_again"_a = made.world.attempt, "features"_a = made.world.features);
+}
+
 py::dict dict_of(const tune::Worth& worth) {
   return py::dict("objective"_a = worth.objective(), "f1"_a = worth.f1,
                   "false_moving"_a = worth.false_moving, "false_static"_a = worth.false_static,
@@ -226,7 +233,35 @@ py::dict dict_of(const std::vector<tune::Setting>& settings) {
   return dict;
 }
 
+py::dict dict_of(const app::TuneMade& made, PythonCaller& caller) {
+  py::list stated;
+  for (const tune::Stated& one : made.stated) {
+    stated.append(py::dict("suite"_a = one.suite, "before"_a = dict_of(one.before),
+                           "after"_a = dict_of(one.after)));
+  }
+  return py::dict("folder"_a = made.folder, "before"_a = dict_of(made.found.before),
+                  "after"_a = dict_of(made.found.after), "stated"_a = stated,
+                  "evaluations"_a = made.found.evaluations, "record"_a = made.record,
+                  "messages"_a = caller.messages());
+}
+
+py::dict dict_of(const app::KinematicsMade& made, PythonCaller& caller) {
+  py::list answer;
+  for (const kinematics::Statement& one : made.answer) {
+    py::list figures;
+    for (const kinematics::Figure& figure : one.figures) {
+      figures.append(py::dict("name"_a = figure.name, "value"_a = figure.value,
+                              "unit"_a = figure.unit, "expected"_a = figure.expected));
+    }
+    answer.append(py::dict("topic"_a = one.topic, "text"_a = one.text, "figures"_a = figures,
+                           "verdict"_a = one.verdict));
+  }
+  return py::dict("folder"_a = made.folder, "answer"_a = answer, "text"_a = made.text,
+                  "messages"_a = caller.messages());
+}
+
 /// Defines a function of a request. \param usual has the defaults.
+/// \param work gets the request and its caller. \return a dict.
 template <class Request, class Do>
 void define(py::module_& module, const Call& call, Request usual, const Do& work,
             const std::string& about) {
@@ -244,12 +279,19 @@ void define(py::module_& module, const Call& call, Request usual, const Do& work
       text.c_str());
 }
 
+/// As a function's work: carries out a request, and makes a dict of the result.
+template <class Request, class Made>
+auto dict_by(Made (*make)(const Request&, app::Caller&)) {
+  return [make](const Request& request, PythonCaller& caller) {
+    return dict_of(carry_out([&] { return make(request, caller); }), caller);
+  };
+}
+
 void bind_suites(py::module_& module) {
   define(
       module, {.takes_progress = true}, app::SuiteRequest{},
       [](const app::SuiteRequest& request, PythonCaller& caller) {
-        const app::SuiteMade made = carry_out([&] { return app::suite(request, caller, caller); });
-        return dict_of(made, caller);
+        return dict_of(carry_out([&] { return app::suite(request, caller, caller); }), caller);
       },
       R"(Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
@@ -267,13 +309,8 @@ dict for each detector, group and metric of the program's tables, with mean, hal
 interval, of worlds; None where unknown) and count; table: the text that the program prints; verdict;
 comparison with the baseline, as of compare; messages.
 Finished runs are kept if it raises or is interrupted, and the same call goes on from there.)");
-  define(
-      module, {}, app::MergeRequest{},
-      [](const app::MergeRequest& request, PythonCaller& caller) {
-        const app::SuiteMade made = carry_out([&] { return app::merge(request, caller); });
-        return dict_of(made, caller);
-      },
-      "Joins the folders of the parts of a suite (shard). Returns as suite.");
+  define(module, {}, app::MergeRequest{}, dict_by(app::merge),
+         "Joins the folders of the parts of a suite (shard). Returns as suite.");
   define(
       module, {.positional = 2}, app::CompareRequest{},
       [](const app::CompareRequest& request, PythonCaller& caller) {
@@ -293,16 +330,8 @@ Raises Error for suites that cannot be read, or have nothing in common.)");
 }
 
 void bind_worlds(py::module_& module) {
-  define(
-      module, {.positional = 2}, app::WorldRequest{},
-      [](const app::WorldRequest& request, PythonCaller& caller) {
-        const app::WorldMade made = carry_out([&] { return app::world(request, caller); });
-        return py::dict("file"_a = made.folder / (worlds::name_of(made.world) + ".yaml"),
-                        "objects"_a = made.world.bodies.size(),
-                        "movers"_a = made.world.scenario.actors.size(),
-                        "drawn_again"_a = made.world.attempt, "features"_a = made.world.features);
-      },
-      R"(Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
+  define(module, {.positional = 2}, app::WorldRequest{}, dict_by(app::world),
+         R"(Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
 
 out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for surfaces.
 Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.
@@ -320,13 +349,8 @@ chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.)");
 }
 
 void bind_runs(py::module_& module) {
-  define(
-      module, {.takes_progress = true}, app::RunRequest{.video = false},
-      [](const app::RunRequest& request, PythonCaller& caller) {
-        const app::RunMade made = carry_out([&] { return app::run(request, caller); });
-        return dict_of(made, caller);
-      },
-      R"(Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
+  define(module, {.takes_progress = true}, app::RunRequest{.video = false}, dict_by(app::run),
+         R"(Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
 beside: "DETECTOR=FOLDER" each. The other arguments are as in suite.
 Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.)");
@@ -342,11 +366,7 @@ Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, 
       },
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
   define(
-      module, {.takes_progress = true}, app::ReplayRequest{.video = false},
-      [](const app::ReplayRequest& request, PythonCaller& caller) {
-        const app::RunMade made = carry_out([&] { return app::replay(request, caller); });
-        return dict_of(made, caller);
-      },
+      module, {.takes_progress = true}, app::ReplayRequest{.video = false}, dict_by(app::replay),
       R"(Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
 path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {"focal": 600,
@@ -376,44 +396,15 @@ same call goes on after it was interrupted.)");
 }
 
 void bind_studies(py::module_& module) {
-  define(
-      module, {.takes_progress = true}, app::TuneRequest{},
-      [](const app::TuneRequest& request, PythonCaller& caller) {
-        const app::TuneMade made = carry_out([&] { return app::tune(request, caller); });
-        py::list stated;
-        for (const tune::Stated& one : made.stated) {
-          stated.append(py::dict("suite"_a = one.suite, "before"_a = dict_of(one.before),
-                                 "after"_a = dict_of(one.after)));
-        }
-        return py::dict("folder"_a = made.folder, "before"_a = dict_of(made.found.before),
-                        "after"_a = dict_of(made.found.after), "stated"_a = stated,
-                        "evaluations"_a = made.found.evaluations, "record"_a = made.record,
-                        "messages"_a = caller.messages());
-      },
-      R"(Learns the filter's parameters from suites of the split train, as lcs tune.
+  define(module, {.takes_progress = true}, app::TuneRequest{}, dict_by(app::tune),
+         R"(Learns the filter's parameters from suites of the split train, as lcs tune.
 
 suites, validate: folders. keys: of the parameters; all learnt ones if not given.
 Returns a dict: folder; before, after: values by key; stated: for each kind of suites a dict of suite
 and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
 The same call goes on after it was interrupted.)");
   define(
-      module, {.takes_progress = true}, app::KinematicsRequest{},
-      [](const app::KinematicsRequest& request, PythonCaller& caller) {
-        const app::KinematicsMade made =
-            carry_out([&] { return app::kinematics(request, caller); });
-        py::list answer;
-        for (const kinematics::Statement& one : made.answer) {
-          py::list figures;
-          for (const kinematics::Figure& figure : one.figures) {
-            figures.append(py::dict("name"_a = figure.name, "value"_a = figure.value,
-                                    "unit"_a = figure.unit, "expected"_a = figure.expected));
-          }
-          answer.append(py::dict("topic"_a = one.topic, "text"_a = one.text, "figures"_a = figures,
-                                 "verdict"_a = one.verdict));
-        }
-        return py::dict("folder"_a = made.folder, "answer"_a = answer, "text"_a = made.text,
-                        "messages"_a = caller.messages());
-      },
+      module, {.takes_progress = true}, app::KinematicsRequest{}, dict_by(app::kinematics),
       R"(Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
 
 config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.

@@ -134,11 +134,11 @@ void bind_result(py::module_& module) {
                              "clockwise in the picture;\n"
                              "empty with the presets lab and cars.")
       .def_property_readonly(
-          "ignored", [](const Result& r) { return rows(r.said.layers.ignored); },
+          "ignored", [](const Result& r) { return rows(r.said.paper.ignored); },
           "Regions psi, whose corners were ignored: shape (1: circle, 2: rectangle), x, y, size_x, "
           "size_y.")
       .def_property_readonly(
-          "collectors", [](const Result& r) { return rows(r.said.layers.collectors); },
+          "collectors", [](const Result& r) { return rows(r.said.paper.collectors); },
           "Regions lambda: x, y, radius, depth_ratio.");
 }
 

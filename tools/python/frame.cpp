@@ -86,9 +86,7 @@ void bind_motion(py::module_& module) {
            "there; unseen_turn in rad, velocity_sigma in m/s.")
       .def_static("between", &motion_between, py::arg("T_WC_before"), py::arg("T_WC_now"),
                   py::arg("dt"), "Of two poses of the camera, 4 x 4, that are dt seconds apart.")
-      .def_property_readonly(
-          "dt", [](const EgoMotion& m) { return m.dt_s; },
-          "Time since the last frame, s; 0 in the first one.")
+      .def_readonly("dt", &EgoMotion::dt_s, "Time since the last frame, s; 0 in the first one.")
       .def_property_readonly(
           "rotation", [](const EgoMotion& m) { return copy(m.R_cur_prev); },
           "3 x 3 float64: takes camera coordinates from the last frame to this one.")
@@ -101,13 +99,12 @@ void bind_motion(py::module_& module) {
       .def_property_readonly(
           "angular_velocity", [](const EgoMotion& m) { return copy(m.w_C_radps); },
           "3 float64, rad/s: mean body rate of the camera.")
-      .def_property_readonly(
-          "unseen_turn", [](const EgoMotion& m) { return m.unseen_turn_rad; },
+      .def_readonly(
+          "unseen_turn", &EgoMotion::unseen_turn_rad,
           "rad: standard deviation of the rotation's error while gyro readings are missing; else "
           "0.")
-      .def_property_readonly(
-          "velocity_sigma", [](const EgoMotion& m) { return m.velocity_sigma_mps; },
-          "m/s: standard deviation of the velocity's error; 0 if unknown.")
+      .def_readonly("velocity_sigma", &EgoMotion::velocity_sigma_mps,
+                    "m/s: standard deviation of the velocity's error; 0 if unknown.")
       .def_property_readonly(
           "up",
           [](const EgoMotion& m) {

@@ -42,7 +42,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// \return the next frame; null after the last frame or a failed one.
-  /// \throws as `bench::see`; std::runtime_error in another thread; py::error_already_set after a
+  /// \throws as `bench::next_input_frame`; std::runtime_error in another thread;
+  /// py::error_already_set after a
   ///   signal, from which the simulation can continue.
   std::shared_ptr<Frame> next();
 

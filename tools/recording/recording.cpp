@@ -14,6 +14,7 @@ FrameRecord without_detections(FrameRecord frame) {
   frame.verdicts.clear();
   frame.reasons.clear();
   frame.layers = {};
+  frame.paper = {};
   frame.masks.clear();
   frame.times.reset();
   return frame;

@@ -14,6 +14,7 @@
 #include "filter/kinematics/ego_motion.h"
 #include "filter/types/gap.h"
 #include "filter/types/layers.h"
+#include "filter/types/paper_layers.h"
 #include "filter/types/reason.h"
 #include "filter/types/signature.h"
 #include "scenarios/scenario.h"
@@ -53,6 +54,7 @@ struct FrameRecord {
   std::vector<Verdict> verdicts;            ///< of each corner
   std::vector<Reason> reasons;              ///< of each verdict; empty if not given
   Layers layers;
+  PaperLayers paper;  ///< empty except for the paper's filter
   SquareMasks masks;
   /// Answers of the picture to the filter; absent if it did not look at pictures.
   std::optional<std::vector<GapSeen>> gaps;

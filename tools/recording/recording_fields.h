@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "filter/types/layers.h"
+#include "filter/types/paper_layers.h"
 #include "filter/types/reason.h"
 #include "sim/truth/truth.h"
 #include "tools/recording/recording.h"

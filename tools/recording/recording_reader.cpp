@@ -305,9 +305,9 @@ void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "rebel_circles", layers.rebel_circles);
   read_member(json, "squares", layers.squares);
   if (find(json, "gaps")) read_member(json, "gaps", frame.gaps.emplace());
-  read_member(json, "ignored", layers.ignored);
-  read_member(json, "collectors", layers.collectors);
-  layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));
+  read_member(json, "ignored", frame.paper.ignored);
+  read_member(json, "collectors", frame.paper.collectors);
+  frame.paper.chains = chains_of(read_columns<ChainRow>(json, "chains"));
   if (find(json, "masks")) {
     for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
       frame.masks[row.square] = {

@@ -2,7 +2,6 @@
 (() => {
 'use strict';
 
-const data = JSON.parse(document.getElementById('data').textContent);
 const hasBaseline = data.baseline !== null;
 
 // ---- Numbers
@@ -20,7 +19,7 @@ function changeText(change, of) {
 
 const COLOURS = { improved: 'good', regressed: 'bad' };
 
-function figureCell(name, figure) {
+function figureCell(figure) {
   if (!figure) return el('td', { class: 'nothing' }, '–');
   const cell = el('td', null, digits(figure.mean));
   if (isNumber(figure.spread)) {
@@ -95,29 +94,23 @@ function worst() {
     folded('Not compared', data.not_compared.map((what) => el('p', { class: 'small' }, what))));
 }
 
-function headerRow(first, sorting) {
-  return el('thead', null, el('tr', null, ...[null, ...SHOWN_COLUMNS].map((name) => {
+/** A table of figures, whose headings call `sorting` if it is given. */
+function figureTable(id, first, rows, sorting) {
+  return table({ id }, [null, ...SHOWN_COLUMNS].map((name) => {
     const { label, title } = data.metrics[name] || { label: first, title: null };
     return el('th', { scope: 'col', title, 'data-metric': name },
       sorting ? el('button', { type: 'button', onclick: (e) => sorting(e.currentTarget.parentNode) }, label) : label);
-  })));
+  }), rows);
 }
+const figureRow = (attributes, first, figures) => el('tr', attributes, el('td', null, first),
+  ...SHOWN_COLUMNS.map((name) => figureCell(figures[name])));
 
 function groupTable() {
   if (data.groups.length === 0) return null;
   return el('section', null,
     el('h2', null, 'Means of the groups'),
     el('p', { class: 'quiet small' }, 'Over so many scenarios; precision, recall and F1 over those with F1, in which something moves.'),
-    el('div', { class: 'scroll' }, el('table', { id: 'groups' }, headerRow('Group'),
-      el('tbody', null, ...data.groups.map((group) => el('tr', null,
-        el('td', null, group.label),
-        ...SHOWN_COLUMNS.map((name) => figureCell(name, group.figures[name]))))))));
-}
-
-/** The table of a single run. */
-function runTable() {
-  return el('div', { class: 'scroll' }, el('table', { id: 'figures' }, headerRow(''), el('tbody', null, el('tr', null,
-    el('td'), ...SHOWN_COLUMNS.map((name) => figureCell(name, data.scenarios[0].figures[name]))))));
+    figureTable('groups', 'Group', data.groups.map((g) => figureRow(null, g.label, g.figures))));
 }
 
 // ---- The table of scenarios
@@ -140,30 +133,22 @@ function openAt(id) {
   }
   const run = scenario.runs.find((r) => (id + '/').startsWith(anchor(scenario, r) + '/'));
   if (run && section) section.show(run);
-  const target = document.getElementById(id) || section;
-  if (target) target.scrollIntoView();
+  (document.getElementById(id) || section)?.scrollIntoView();
 }
 
 function scenarioRow(scenario) {
-  const row = el('tr', { 'data-scenario': scenario.name },
-    el('td', null, link(scenario), scenario.standings.join() === 'passed' ? null : el('span', null, ' ', ...badges(scenario.standings))),
-    ...SHOWN_COLUMNS.map((name) => figureCell(name, scenario.figures[name])));
-  row.scenario = scenario;
-  return row;
+  const marks = scenario.standings.join() === 'passed' ? null
+    : el('span', null, ' ', ...badges(scenario.standings));
+  return Object.assign(figureRow({ 'data-scenario': scenario.name }, [link(scenario), marks],
+    scenario.figures), { scenario });
 }
 
 function scenarioTable() {
   const rows = data.scenarios.map(scenarioRow);
-  const body = el('tbody', null, ...rows);
   let byChange = false, sorted = null, descending = false;
 
-  const keyOf = (row, name) => {
-    if (!name) return row.scenario.name;
-    const figure = row.scenario.figures[name];
-    if (!figure || !isNumber(figure.mean)) return null;
-    if (!byChange) return figure.mean;
-    return isNumber(figure.change) ? figure.change : null;
-  };
+  const keyOf = ({ scenario }, name) => name
+    ? scenario.figures[name]?.[byChange ? 'change' : 'mean'] ?? null : scenario.name;
   const sort = () => {
     const name = sorted.dataset.metric || null;
     rows.sort((a, b) => {
@@ -172,7 +157,7 @@ function scenarioTable() {
       const order = name ? x - y : x.localeCompare(y, 'en', { numeric: true });
       return descending ? -order : order;
     });
-    body.append(...rows);
+    all.querySelector('tbody').append(...rows);
     for (const other of sorted.parentNode.children) other.removeAttribute('aria-sort');
     sorted.setAttribute('aria-sort', descending ? 'descending' : 'ascending');
   };
@@ -181,6 +166,7 @@ function scenarioTable() {
     sorted = heading;
     sort();
   };
+  const all = figureTable('scenarios', 'Scenario', rows, onSort);
 
   const shown = el('span', { class: 'quiet small', role: 'status' });
   const filter = el('input', { type: 'search', id: 'filter', 'aria-label': 'Filter the scenarios',
@@ -207,7 +193,7 @@ function scenarioTable() {
     el('div', { class: 'controls' }, filter, hasBaseline ? change : null, shown),
     el('p', { class: 'quiet small' }, 'Means over the seeds',
       hasBaseline ? '; below them the change against the baseline, coloured where it is real (lcs compare has the same rule).' : '.'),
-    el('div', { class: 'scroll' }, el('table', { id: 'scenarios' }, headerRow('Scenario', onSort), body)));
+    all);
 }
 
 // ---- Plots
@@ -253,7 +239,14 @@ function overTime(run) {
   const times = run.frames.t_s, last = times.length - 1;
   const readout = el('div', { class: 'readout' }, 'Point at a plot to see its frame; ← and → go to the next.');
   const video = el('video', { src: 'data:video/mp4;base64,' + data.video, controls: '', muted: '',
-    onerror: () => readout.replaceChildren('This browser cannot show the video; it is in video.mp4.') });
+    onerror: () => readout.replaceChildren('This browser cannot show the video; it is in video.mp4.'),
+    onplay: () => follow(), onseeked: () => follow(), onkeydown: (event) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      video.pause();
+      show(frame() + step);
+    } });
   const frame = () => Math.min(last, Math.floor(video.currentTime / video.duration * times.length));
   const show = (wanted) => {
     if (!video.duration || wanted === frame()) return;
@@ -268,15 +261,6 @@ function overTime(run) {
     if (!pointing) for (const figure of plots.children) figure.pointAt(times[frame()]);
     if (!video.paused) requestAnimationFrame(follow);
   };
-  video.addEventListener('play', follow);
-  video.addEventListener('seeked', follow);
-  video.addEventListener('keydown', (event) => {
-    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    video.pause();
-    show(frame() + step);
-  });
   return el('div', { class: 'scrub' }, el('div', null, video, readout), plots);
 }
 
@@ -350,32 +334,30 @@ function eventList(scenario, run) {
 
 // ---- A scenario
 
+const seedText = (run) => 'seed ' + run.seed;
 const bound = (c) => [isNumber(c.min) ? '≥ ' + tickText(c.min) : '', isNumber(c.max) ? '≤ ' + tickText(c.max) : '']
   .filter(Boolean).join(', ');
 
 function criteriaTable(scenario) {
   const with_ = scenario.runs.filter((run) => run.criteria.length > 0);
   if (with_.length === 0) return el('p', { class: 'nothing' }, 'It asks for nothing.');
-  return el('div', { class: 'scroll' }, el('table', { class: 'criteria' },
-    el('thead', null, el('tr', null, el('th', null, 'Figure'), el('th', null, 'must be'),
-      ...with_.map((run) => el('th', null, 'seed ' + run.seed)))),
-    el('tbody', null, ...with_[0].criteria.map((c, i) => el('tr', null,
+  return table({ class: 'criteria' }, ['Figure', 'must be', ...with_.map(seedText)],
+    with_[0].criteria.map((c, i) => el('tr', null,
       el('td', null, el('code', null, c.metric), c.required ? null : el('span', { class: 'quiet small' }, ' not required')),
       el('td', null, bound(c), c.over === 'seed' ? null : el('span', { class: 'quiet small' }, ' over seeds: ' + c.over)),
       ...with_.map((run) => el('td', null, el('span', { class: 'badge ' + (run.criteria[i].met ? 'met' : 'unmet') },
-        (run.criteria[i].met ? '✓ ' : '✗ ') + digits(run.criteria[i].value)))))))));
+        (run.criteria[i].met ? '✓ ' : '✗ ') + digits(run.criteria[i].value)))))));
 }
 
 function allFigures(scenario) {
   const names = Object.keys(scenario.figures);
   if (names.length === 0) return null;
   return el('details', null, el('summary', null, 'All figures'),
-    el('div', { class: 'scroll' }, el('table', null,
-      el('thead', null, el('tr', null, el('th', null, 'Figure'), el('th', null, 'mean'),
-        ...scenario.runs.map((run) => el('th', null, 'seed ' + run.seed)))),
-      el('tbody', null, ...names.map((name) => el('tr', null, el('td', { title: data.metrics[name].title }, el('code', null, name)),
-        figureCell(name, scenario.figures[name]),
-        ...scenario.runs.map((run) => el('td', null, digits(run.metrics[name])))))))));
+    table(null, ['Figure', 'mean', ...scenario.runs.map(seedText)],
+      names.map((name) => el('tr', null,
+        el('td', { title: data.metrics[name].title }, el('code', null, name)),
+        figureCell(scenario.figures[name]),
+        ...scenario.runs.map((run) => el('td', null, digits(run.metrics[name])))))));
 }
 
 function commandLine(command) {
@@ -413,7 +395,7 @@ function notes(run) {
 function scenarioBody(scenario) {
   const place = el('div');
   const buttons = scenario.runs.map((run) => el('button', { type: 'button', onclick: () => show(run) },
-    'seed ' + run.seed + (run.outcome === 'passed' ? '' : ' ' + STANDINGS[run.outcome])));
+    seedText(run) + (run.outcome === 'passed' ? '' : ' ' + STANDINGS[run.outcome])));
   const show = (run) => {
     buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(scenario.runs[i] === run)));
     place.replaceChildren(runBody(scenario, run));
@@ -441,16 +423,13 @@ function scenarioSection(scenario) {
 
 /** Scenarios of one file that sweep the same keys. */
 function sweeps() {
-  const all = new Map();
+  const all = {};
   for (const scenario of data.scenarios.filter((s) => s.point.length > 0)) {
     const key = JSON.stringify([scenario.file, scenario.point.map(([name]) => name)]);
-    if (!all.has(key)) all.set(key, []);
-    all.get(key).push(scenario);
+    (all[key] ||= []).push(scenario);
   }
-  return [...all.values()];
+  return Object.values(all);
 }
-
-const figureOf = (scenario, name) => (scenario.figures[name] || {}).mean;
 
 /** Swept values without the parts that are equal in all of them, such as a constant coordinate. */
 function varying(values) {
@@ -473,8 +452,8 @@ function sweepPlot(points) {
   const sorted = points.map((scenario, i) => ({ scenario, x: numeric ? measures[i].value : i }))
     .sort((a, b) => a.x - b.x);
   const series = (name, style) => ({ name: data.metrics[name].label, style,
-    values: sorted.map((p) => figureOf(p.scenario, name)),
-    spread: sorted.map((p) => (p.scenario.figures[name] || {}).spread || 0) });
+    values: sorted.map((p) => p.scenario.figures[name]?.mean),
+    spread: sorted.map((p) => p.scenario.figures[name]?.spread || 0) });
   return el('div', { class: 'plots' }, plot({ title: 'Over ' + key, x: sorted.map((p) => p.x),
     xName: numeric ? measures[0].unit : 'point', top: 1.05, series: [
       series('rebel.f1', 's1'), series('rebel.recall', 's2')] }));
@@ -490,16 +469,16 @@ function heatMap(points) {
     return all.every(measure) ? all.sort((a, b) => measure(a).value - measure(b).value) : all;
   };
   const columns = valuesOf(1);
-  return el('div', { class: 'scroll' }, el('table', { class: 'heat' },
-    el('caption', { class: 'small' }, F1 + ' over ' + rowKey + ' (down) and ' + columnKey + ' (across)'),
-    el('thead', null, el('tr', null, el('th'), ...columns.map((value) => el('th', { scope: 'col' }, value)))),
-    el('tbody', null, ...valuesOf(0).map((row) => el('tr', null, el('th', { scope: 'row' }, row),
+  const heads = columns.map((value) => el('th', { scope: 'col' }, value));
+  return table({ class: 'heat' }, [el('th'), ...heads],
+    valuesOf(0).map((row) => el('tr', null, el('th', { scope: 'row' }, row),
       ...columns.map((column) => {
         const found = points.find((s) => s.point[0][1] === row && s.point[1][1] === column);
-        const f1 = found ? figureOf(found, 'rebel.f1') : undefined;
-        return el('td', { title: found ? found.name : null,
+        const f1 = found?.figures['rebel.f1']?.mean;
+        return el('td', { title: found?.name,
           style: isNumber(f1) ? 'background:' + heat(Math.min(1, Math.max(0, f1))) : 'color:inherit' }, digits(f1));
-      }))))));
+      }))), el('caption', { class: 'small' },
+      F1 + ' over ' + rowKey + ' (down) and ' + columnKey + ' (across)'));
 }
 
 function sweepSection() {
@@ -516,8 +495,10 @@ function sweepSection() {
 // ---- The page
 
 head();
-document.getElementById('page').append(...(data.is_run ? [worst(), runTable(), scenarioBody(data.scenarios[0])] : [
-  worst(), groupTable(), scenarioTable(), sweepSection(),
+const first = data.scenarios[0];
+document.getElementById('page').append(worst(), ...(data.is_run ? [
+  figureTable('figures', '', [figureRow(null, null, first.figures)]), scenarioBody(first)] : [
+  groupTable(), scenarioTable(), sweepSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
 ]).filter(Boolean), foot());
 // Opens the place that the page's address points to.

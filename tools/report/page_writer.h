@@ -41,7 +41,7 @@ struct Page {
   std::string_view where_else;  ///< file with the same figures, named if JavaScript is off
 };
 
-/// Writes the page. \throws bench::OutputError
+/// Writes the page. \throws files::OutputError
 void write_page(const std::filesystem::path& file, const Page& page);
 
 /// A page without a script, built from top to bottom.

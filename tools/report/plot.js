@@ -1,16 +1,14 @@
 // Elements, numbers and plots for pages. External text is only inserted as text nodes, never as HTML.
 'use strict';
 
+/** What the page is to show. */
+const data = JSON.parse(document.getElementById('data').textContent);
+
 // ---- Elements
 
 /** Makes an element. Attributes and children that are null are omitted. */
 function el(tag, attributes, ...children) {
-  return fill(document.createElement(tag), attributes, children);
-}
-function svg(tag, attributes, ...children) {
-  return fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
-}
-function fill(node, attributes, children) {
+  const node = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined) continue;
     if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
@@ -21,6 +19,12 @@ function fill(node, attributes, children) {
   }
   return node;
 }
+
+/** A table of `rows`, which scrolls where it is wide. Each of `heads` is a cell or its text. */
+const table = (attributes, heads, rows, caption) => el('div', { class: 'scroll' },
+  el('table', attributes, caption, el('thead', null, el('tr', null,
+    ...heads.map((head) => typeof head === 'string' ? el('th', null, head) : head))),
+    el('tbody', null, ...rows)));
 
 // ---- Numbers
 

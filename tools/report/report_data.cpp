@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -35,7 +33,6 @@ extern const std::string_view kReportJs;
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using suite::RunResult;
 using suite::ScenarioResult;
 using suite::SuiteInFolder;
@@ -52,10 +49,6 @@ constexpr std::ptrdiff_t kMostRemarks = 300;
 constexpr std::array<const char*, 10> kCurves{
     "t_s",           "precision", "recall",    "normal_edges", "rebel_edges", "normal_circles",
     "rebel_circles", "squares",   "dimension", "corners"};
-
-Json json_of(std::optional<double> figure) {
-  return figure && std::isfinite(*figure) ? Json(*figure) : Json(nullptr);
-}
 
 // ---- Figures
 
@@ -86,7 +79,7 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
   const suite::Difference& difference = *found->second;
   figure["before"] = difference.before;
   figure["change"] = difference.change.mean;
-  figure["half"] = json_of(difference.change.half);
+  figure["half"] = number_or_null(difference.change.half);
   figure["verdict"] = suite::word_of(difference.verdict);
 }
 
@@ -112,7 +105,7 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
     for (const scoring::Metric& metric : scoring::metrics()) {
       const auto now = suite::over_group(suite, group, metric.key);
       if (!now) continue;
-      figures[metric.key] = {{"mean", json_of(now)}};
+      figures[metric.key] = {{"mean", number_or_null(now)}};
       add_change(figures[metric.key], differences, group, metric.key);
     }
     groups.push_back({{"name", group},
@@ -129,9 +122,9 @@ Json criteria_of(const RunResult& run) {
   Json criteria = Json::array();
   for (const scoring::JudgedCriterion& criterion : run.criteria) {
     criteria.push_back({{"metric", criterion.metric},
-                        {"min", json_of(criterion.min)},
-                        {"max", json_of(criterion.max)},
-                        {"value", json_of(criterion.value)},
+                        {"min", number_or_null(criterion.min)},
+                        {"max", number_or_null(criterion.max)},
+                        {"value", number_or_null(criterion.value)},
                         {"over", criterion.over},
                         {"required", criterion.required},
                         {"met", criterion.met}});
@@ -255,7 +248,7 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   Json json = {{"seed", run.seed},
                {"outcome", suite::word_of(run.outcome)},
                {"error", run.error},
-               {"wall_s", json_of(run.wall_s)},
+               {"wall_s", number_or_null(run.wall_s)},
                {"command", run.command},
                {"criteria", criteria_of(run)},
                {"warnings", recording::lines_of(run.warnings)},

@@ -25,7 +25,7 @@ struct Against {
 
 /// Writes the page. It shows the frames.csv and events.json of each run that has them.
 /// \param against null without a baseline.
-/// \throws bench::OutputError; std::runtime_error that names an unreadable frames.csv or
+/// \throws files::OutputError; std::runtime_error that names an unreadable frames.csv or
 ///   events.json of the suite. The page itself reports unreadable files of the baseline.
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
                   const suite::SuiteVerdict& verdict, const Against* against);

@@ -20,7 +20,7 @@ std::filesystem::path sheet_path(const suite::ScenarioResult& scenario);
 /// \param about a line that describes these worlds to the reader.
 /// \param others results of other detectors on the same worlds.
 /// \param suite_folder receives the page, which shows the sheets that exist there.
-/// \throws bench::OutputError
+/// \throws files::OutputError
 void write_worlds_page(const std::filesystem::path& suite_folder, const std::string& about,
                        const suite::SuiteResult& suite, std::span<const suite::SuiteResult> others);
 

@@ -12,10 +12,6 @@
 namespace lcs::scoring {
 namespace {
 
-std::string place(const input::Source& source) {
-  return source.line > 0 ? fmt::format("{}:{}", source.file, source.line) : source.file;
-}
-
 bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) {
   return figure && (!criterion.min || *figure >= *criterion.min) &&
          (!criterion.max || *figure <= *criterion.max);
@@ -59,7 +55,7 @@ std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& crite
   std::map<std::string, std::vector<std::string>> places;  // by detector's name
   for (const scenario::Criterion& criterion : criteria) {
     if (!criterion.detector.empty() && !detectors.contains(criterion.detector)) {
-      places[criterion.detector].push_back(place(criterion.source));
+      places[criterion.detector].push_back(text_of(criterion.source));
     }
   }
   std::vector<std::string> lines;
@@ -76,7 +72,7 @@ std::vector<std::string> not_judged(const std::vector<scenario::Criterion>& crit
       std::ranges::find_if(criteria, [](const auto& one) { return one.over != "seed"; });
   if (found == criteria.end()) return {};
   return {fmt::format("not judged: criteria over seeds, as at {}; lcs suite judges them",
-                      place(found->source))};
+                      text_of(found->source))};
 }
 
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
@@ -93,7 +89,7 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
                                             .required = criterion.required,
                                             .met = met || criterion.over != "seed",
                                             .over = criterion.over,
-                                            .place = place(criterion.source)});
+                                            .place = text_of(criterion.source)});
     if (one.met) continue;
     const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
     one.message = fmt::format("{}: {}{} is {}, must be {}", one.place, criterion.metric, of,

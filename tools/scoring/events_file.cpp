@@ -1,15 +1,11 @@
 #include <openssl/evp.h>
 
-#include <nlohmann/json.hpp>
-
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 #include "tools/scoring/events.h"
 
 namespace lcs::scoring {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr input::FileKind kEventsDocument{files::kMostJsonBytes, "run the scenario again"};
 

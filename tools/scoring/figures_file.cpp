@@ -42,8 +42,8 @@ Row row_of(const recording::FrameRecord& frame, const std::optional<RebelCounts>
   row("frame", frame.index)("t_s", static_cast<double>(frame.t_ns) * 1e-9);
   row("corners", frame.corners_px.size());
   row("ignored_corners", std::ranges::count(frame.verdicts, Verdict::ignored));
-  row("psi", layers.ignored.size())("lambda", layers.collectors.size());
-  row("alpha", layers.chains.size());
+  row("psi", frame.paper.ignored.size())("lambda", frame.paper.collectors.size());
+  row("alpha", frame.paper.chains.size());
   row("normal_edges", layers.normal_edges.size())("rebel_edges", layers.rebel_edges.size());
   row("normal_circles", layers.normal_circles.size());
   row("rebel_circles", layers.rebel_circles.size());

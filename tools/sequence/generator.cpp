@@ -199,10 +199,9 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
-files::Provenance::Json facts_of(const scenario::Scenario& scenario,
-                                 const GenerateOptions& options) {
+Json facts_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
-  files::Provenance::Json facts = {
+  Json facts = {
       {"scenario", scenario.name},        {"set", options.sets},        {"seed", scenario.seed},
       {"frames", scenario.frames},        {"formats", options.formats}, {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},

@@ -1,7 +1,6 @@
 #include "tools/sequence/manifest.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
@@ -9,8 +8,6 @@
 namespace lcs::sequence {
 
 namespace fs = std::filesystem;
-// Keys in a readable order.
-using Json = nlohmann::ordered_json;
 
 constexpr input::FileKind kManifestDocument{
     4 * input::kGibibyte,  // one file of each kind per frame, for a million frames

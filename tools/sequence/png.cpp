@@ -3,11 +3,11 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <memory>
-#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "tools/files/output_file.h"
 
 namespace lcs::sequence {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 // "Portable Network Graphics (PNG) Specification", W3C.
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 enum ColourType : char { kGrey = 0, kColour = 2, kIndexed = 3 };
-constexpr int kLevel = 1;  // higher levels take longer and hardly compress better
 
 void append_big_endian(std::string& to, std::uint32_t number) {
   for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift & 0xff);
@@ -59,22 +58,22 @@ void lay_out(const cv::Mat& image, int y, std::vector<unsigned char>& row) {
 }
 
 /// Each row of the result: the filter's code, then the filtered bytes.
-std::vector<unsigned char> filtered(const cv::Mat& image, PngFilter filter) {
+std::string filtered(const cv::Mat& image, PngFilter filter) {
   const std::size_t pixel = image.elemSize();
   std::vector<unsigned char> row(static_cast<std::size_t>(image.cols) * pixel), above(row.size());
-  std::vector<unsigned char> all((row.size() + 1) * static_cast<std::size_t>(image.rows));
-  unsigned char* to = all.data();
+  std::string all((row.size() + 1) * static_cast<std::size_t>(image.rows), '\0');
+  char* to = all.data();
   for (int y = 0; y < image.rows; ++y) {
     lay_out(image, y, row);
-    *to++ = static_cast<unsigned char>(filter);
+    *to++ = static_cast<char>(filter);
     std::ranges::copy(row, to);
     if (filter == PngFilter::sub) {
       for (std::size_t i = pixel; i < row.size(); ++i) {
-        to[i] = static_cast<unsigned char>(row[i] - row[i - pixel]);
+        to[i] = static_cast<char>(row[i] - row[i - pixel]);
       }
     } else if (filter == PngFilter::up) {
       for (std::size_t i = 0; i < row.size(); ++i) {
-        to[i] = static_cast<unsigned char>(row[i] - above[i]);
+        to[i] = static_cast<char>(row[i] - above[i]);
       }
       above.swap(row);
     }
@@ -83,22 +82,12 @@ std::vector<unsigned char> filtered(const cv::Mat& image, PngFilter filter) {
   return all;
 }
 
-std::string compressed(const std::vector<unsigned char>& bytes) {
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::string data(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  data.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), data.data(),
-                                       data.size()));
-  return data;
-}
-
 std::string encode(const cv::Mat& image, ColourType colour, PngFilter filter,
                    std::string_view palette) {
   std::string bytes(kSignature);
   append_chunk(bytes, "IHDR", header(image, colour));
   if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
-  append_chunk(bytes, "IDAT", compressed(filtered(image, filter)));
+  append_chunk(bytes, "IDAT", files::compressed(filtered(image, filter), files::Packing::zlib));
   append_chunk(bytes, "IEND", "");
   return bytes;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 
@@ -14,8 +13,6 @@
 namespace lcs::sequence {
 namespace {
 
-// Keys in a readable order.
-using Json = nlohmann::ordered_json;
 using Node = files::JsonNode;
 
 constexpr const char* kImu = "imu";

@@ -17,7 +17,7 @@
 namespace lcs::sequence {
 
 inline constexpr const char* kSettingsFile = "lcs.json";
-/// The truth that scores a replay (`bench::read_seen`), with the times in the pictures' names.
+/// The truth that scores a replay (`replay::read_seen`), with the times in the pictures' names.
 inline constexpr const char* kTruthFile = "truth.jsonl";
 
 /// The keys of IMU noise, here and (if Kalibr has them) in `sensor.yaml`.

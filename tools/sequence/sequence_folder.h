@@ -37,7 +37,7 @@ class SequenceFolder {
   /// \param adds formats are added to the finished sequence in the target.
   /// \param is_part other processes may fill the folder at the same time; never calls `finish`.
   /// \param wait called again and again while another process makes the whole sequence.
-  /// \throws bench::OutputError as `bench::Output`; input::Error for an unreadable manifest.
+  /// \throws files::OutputError as `files::Output`; input::Error for an unreadable manifest.
   SequenceFolder(const std::filesystem::path& target, const std::filesystem::path& base, bool adds,
                  bool is_part, std::function<void()> wait);
 
@@ -47,8 +47,8 @@ class SequenceFolder {
   /// Compares the sequence with the one in the target, and with the unfinished one.
   /// \param facts all settings that determine its bytes.
   /// \return whether the target has it already, whole and as it was written.
-  /// \throws bench::OutputError that names the first difference of another sequence.
-  bool is_complete(const files::Provenance::Json& facts);
+  /// \throws files::OutputError that names the first difference of another sequence.
+  bool is_complete(const Json& facts);
 
   /// Whether a frame is finished and its files are as they were written.
   bool is_whole(int frame);
@@ -58,22 +58,22 @@ class SequenceFolder {
   const FrameEntry& read(int frame);
 
   /// Writes the files of a frame, then its entry. Does nothing if another process has finished the
-  /// sequence. All files that determine the frame have been read. \throws bench::OutputError
+  /// sequence. All files that determine the frame have been read. \throws files::OutputError
   void add(int frame, const FrameOutput& output, const Agreements& checks);
 
   /// Writes a file of the sequence. Leaves a file of the same bytes as it is.
-  /// \throws bench::OutputError
+  /// \throws files::OutputError
   void write(const std::filesystem::path& within, std::string_view bytes) const;
 
   /// Adds the files of a folder that another program makes.
   /// \param make called with the path of a folder to make, beside which it may have other files.
-  /// \throws bench::OutputError
+  /// \throws files::OutputError
   std::vector<FileRecord> add_folder(
       const std::filesystem::path& within,
       const std::function<void(const std::filesystem::path&)>& make) const;
 
   /// Writes the manifest, and moves the sequence to the target.
-  /// \throws bench::OutputError, also if there is a file that is none of `files`.
+  /// \throws files::OutputError, also if there is a file that is none of `files`.
   void finish(const Agreements& checks, std::vector<FileRecord> files);
 
   const std::filesystem::path& target() const { return output_.target(); }
@@ -94,7 +94,7 @@ class SequenceFolder {
   std::filesystem::path base_;
   bool adds_;
   std::optional<files::Provenance> finished_;  ///< of the sequence in the target
-  files::Provenance::Json facts_;
+  Json facts_;
   std::optional<files::Journal> journal_;  ///< of this process
   std::map<std::filesystem::path, files::JournalReader> journals_;
   std::map<int, FrameEntry> entries_;

@@ -22,10 +22,10 @@ try:
         Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime)  # fmt: skip
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-
-    HAS_ROSBAGS = True
 except ImportError:
-    HAS_ROSBAGS = False
+    print("writing bags needs the Python package rosbags; install it with: "
+          f"{sys.executable} -m pip install rosbags==0.11.9", file=sys.stderr)  # fmt: skip
+    sys.exit(3)
 
 SECOND_NS = 10**9
 UNKNOWN = -1.0  # the first covariance of a quantity that a message does not have
@@ -56,8 +56,8 @@ class Bag:
     def make(self, kind: str, *fields: object) -> Any:
         return self.store.types[kind.replace("/", "/msg/")](*fields)
 
-    def send(self, topic: str, kind: str, t_ns: int, message: object) -> None:
-        kind = kind.replace("/", "/msg/")
+    def send(self, t_ns: int, topic: str, message: Any) -> None:
+        kind = message.__msgtype__
         if topic not in self._topics:
             kept = QosDurability.TRANSIENT_LOCAL if topic == "/tf_static" else QosDurability.VOLATILE
             no_limit = QosTime(2147483647, 4294967295)
@@ -118,36 +118,36 @@ def detections(bag: Bag, header: Any, boxes: list) -> Any:
     return bag.make("vision_msgs/Detection2DArray", header, found)
 
 
-def readings(bag: Bag, sensors: dict, frame: dict) -> Iterator[tuple[int, str, str, object]]:
+def readings(bag: Bag, sensors: dict, frame: dict) -> Iterator[tuple[int, str, Any]]:
     gyro, accelerometer = (np.diag([v] * 3).ravel().astype(float) for v in sensors["imu_variances"])
     unknown = np.zeros(9)
     unknown[0] = UNKNOWN
     no_attitude = bag.make("geometry_msgs/Quaternion", 0.0, 0.0, 0.0, 1.0)
     for t, *rates in frame["imu"]:
-        yield t, "/imu0", "sensor_msgs/Imu", bag.make(
+        yield t, "/imu0", bag.make(
             "sensor_msgs/Imu", bag.header(t, "imu"), no_attitude, unknown, bag.vector(rates[:3]),
             gyro, bag.vector(rates[3:]), accelerometer)  # fmt: skip
     for t, *T_WS in frame["states"]:
         moved = bag.transform(t, "world", "imu", T_WS)
-        yield t, "/tf", "tf2_msgs/TFMessage", bag.make("tf2_msgs/TFMessage", [moved])
+        yield t, "/tf", bag.make("tf2_msgs/TFMessage", [moved])
     for t, x, y, z, yaw_rate in frame["wheels"]:
-        yield t, "/odometry0", "nav_msgs/Odometry", bag.odometry(
+        yield t, "/odometry0", bag.odometry(
             t, "odom", "base", None, [x, y, z], [0, 0, yaw_rate], sensors["wheel_variances"])  # fmt: skip
     truth = frame["truth"]
     t = truth["t"]
-    yield t, "/truth/odometry", "nav_msgs/Odometry", bag.odometry(
+    yield t, "/truth/odometry", bag.odometry(
         t, "world", sensors["cameras"][0]["frame"], truth["T_WC"], truth["v_C"], truth["w_C"], [0] * 6)  # fmt: skip
 
 
-def views(bag: Bag, sensors: dict, folder: Path, frame: dict) -> Iterator[tuple[int, str, str, object]]:
+def views(bag: Bag, sensors: dict, folder: Path, frame: dict) -> Iterator[tuple[int, str, Any]]:
     camera, t = sensors["cameras"][frame["place"]], frame["t"]
     header = bag.header(t, camera["frame"])
     data = np.frombuffer((folder / frame["picture"]).read_bytes(), np.uint8)
     name = f"/cam{frame['place']}"
-    yield t, f"{name}/image_raw/compressed", "sensor_msgs/CompressedImage", bag.make(
+    yield t, f"{name}/image_raw/compressed", bag.make(
         "sensor_msgs/CompressedImage", header, "bgr8; png compressed bgr8", data)  # fmt: skip
-    yield t, f"{name}/camera_info", "sensor_msgs/CameraInfo", camera_info(bag, t, camera)
-    yield t, f"{name}/detections", "vision_msgs/Detection2DArray", detections(bag, header, frame["boxes"])
+    yield t, f"{name}/camera_info", camera_info(bag, t, camera)
+    yield t, f"{name}/detections", detections(bag, header, frame["boxes"])
 
 
 def frames_of(messages: Path, place: int) -> Iterator[dict]:
@@ -164,21 +164,16 @@ def write(messages: Path, folder: Path, out: Path) -> None:
         bag = Bag(writer)
         start = sensors["start"]
         links = [bag.transform(start, "imu", child, T) for child, T in sensors["links"].items()]
-        bag.send("/tf_static", "tf2_msgs/TFMessage", start, bag.make("tf2_msgs/TFMessage", links))
+        bag.send(start, "/tf_static", bag.make("tf2_msgs/TFMessage", links))
         cameras = [frames_of(messages, place) for place in range(len(sensors["cameras"]))]
         for frame in heapq.merge(*cameras, key=lambda frame: frame["t"]):
             found = list(readings(bag, sensors, frame)) if "imu" in frame else []
-            for t, topic, kind, message in sorted(found, key=lambda one: one[0]):
-                bag.send(topic, kind, t, message)
-            for t, topic, kind, message in views(bag, sensors, folder, frame):
-                bag.send(topic, kind, t, message)
+            found.sort(key=lambda one: one[0])
+            for one in (*found, *views(bag, sensors, folder, frame)):
+                bag.send(*one)
 
 
 def main(words: list[str]) -> int:
-    if not HAS_ROSBAGS:
-        print("writing bags needs the Python package rosbags; install it with: "
-              f"{sys.executable} -m pip install rosbags==0.11.9", file=sys.stderr)  # fmt: skip
-        return 3
     if words == ["--version"]:
         print(version("rosbags"), end="")
         return 0

@@ -16,10 +16,10 @@ from pathlib import Path
 try:
     import h5py
     import numpy as np
-
-    HAS_H5PY = True
 except ImportError:
-    HAS_H5PY = False
+    print("writing HDF5 needs h5py and numpy; install Debian's python3-h5py, or: "
+          f"{sys.executable} -m pip install h5py", file=sys.stderr)  # fmt: skip
+    sys.exit(3)
 
 LINES_AT_ONCE = 1_000_000
 
@@ -50,10 +50,6 @@ def write(rows: Path, out: Path) -> None:
 
 
 def main(words: list[str]) -> int:
-    if not HAS_H5PY:
-        print("writing HDF5 needs h5py and numpy; install Debian's python3-h5py, or: "
-              f"{sys.executable} -m pip install h5py", file=sys.stderr)  # fmt: skip
-        return 3
     if words == ["--version"]:
         print(h5py.__version__, end="")
         return 0

@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <list>
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <thread>
 
 #include "scenarios/shipped.h"
@@ -29,17 +23,7 @@ using namespace std::chrono_literals;
 /// Short against a run, which takes seconds.
 constexpr auto kPollPeriod = 10ms;
 constexpr auto kPatience = 10s;
-constexpr off_t kMostErr = 1 << 16;
-
-std::string read_end(int file) {
-  struct stat status = {};
-  if (::fstat(file, &status) != 0) return "";
-  const off_t begin = std::max<off_t>(0, status.st_size - kMostErr);
-  std::string text(static_cast<std::size_t>(status.st_size - begin), '\0');
-  const ssize_t got = ::pread(file, text.data(), text.size(), begin);
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-  return text;
-}
+constexpr std::size_t kMostErr = 1 << 16;
 
 std::string trimmed(std::string text) {
   constexpr std::string_view kOwnName = "lcs: ";
@@ -55,31 +39,18 @@ class ChildProcess {
       : place(its_place) {
     std::vector<std::string> command{kChildName};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    err_ = ::memfd_create("stderr", MFD_CLOEXEC);
-    if (err_ < 0)
-      throw std::system_error(errno, std::generic_category(),
-                              "no process can be started (memfd_create)");
-    try {
-      pid_ = process::start_child(scenario::program().c_str(), command, {.err = err_},
-                                  {.when_parent_ends = SIGTERM});
-    } catch (const std::system_error&) {
-      ::close(err_);
-      throw;
-    }
+    pid_ = process::start_child(scenario::program().c_str(), command, {.err = err_.descriptor()},
+                                {.when_parent_ends = SIGTERM});
   }
   /// Ends the process if it still runs.
   ~ChildProcess() {
-    if (!poll()) {
-      ask_to_end();
-      const Clock::time_point deadline = Clock::now() + kPatience;
-      while (!poll() && Clock::now() < deadline) std::this_thread::sleep_for(kPollPeriod);
-      if (!poll()) ::kill(pid_, SIGKILL);
-      while (!poll()) std::this_thread::sleep_for(kPollPeriod);
-    }
-    ::close(err_);
+    if (poll()) return;
+    ask_to_end();
+    const Clock::time_point deadline = Clock::now() + kPatience;
+    while (!poll() && Clock::now() < deadline) std::this_thread::sleep_for(kPollPeriod);
+    if (!poll()) ::kill(pid_, SIGKILL);
+    while (!poll()) std::this_thread::sleep_for(kPollPeriod);
   }
-  ChildProcess(const ChildProcess&) = delete;
-  ChildProcess& operator=(const ChildProcess&) = delete;
 
   /// How the process ended; absent while it runs.
   std::optional<Exit> poll() {
@@ -88,7 +59,7 @@ class ChildProcess {
     exit_.emplace();
     exit_->code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
     exit_->signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    exit_->err = read_end(err_);
+    exit_->err = err_.text(kMostErr);
     exit_->wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
     return exit_;
   }
@@ -102,7 +73,7 @@ class ChildProcess {
  private:
   using Clock = std::chrono::steady_clock;
   pid_t pid_ = -1;
-  int err_ = -1;  ///< unnamed file (memfd) for its stderr
+  process::MemoryFile err_{"no process can be started (memfd_create)"};  ///< its stderr
   Clock::time_point start_ = Clock::now();
   std::optional<Exit> exit_;
 };

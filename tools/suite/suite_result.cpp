@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "scenarios/input/inputs_read.h"
@@ -15,29 +13,27 @@
 namespace lcs::suite {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Version of the file format.
 constexpr int kFormat = 1;
 constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 
 // ---- Writing
 
-Json to_json(std::optional<double> figure) {
-  return figure && std::isfinite(*figure) ? Json(*figure) : Json(nullptr);
-}
-
 Json to_json(const scoring::JudgedCriterion& criterion) {
-  return {{"metric", criterion.metric},     {"min", to_json(criterion.min)},
-          {"max", to_json(criterion.max)},  {"value", to_json(criterion.value)},
-          {"required", criterion.required}, {"met", criterion.met},
-          {"over", criterion.over},         {"place", criterion.place},
+  return {{"metric", criterion.metric},
+          {"min", number_or_null(criterion.min)},
+          {"max", number_or_null(criterion.max)},
+          {"value", number_or_null(criterion.value)},
+          {"required", criterion.required},
+          {"met", criterion.met},
+          {"over", criterion.over},
+          {"place", criterion.place},
           {"message", criterion.message}};
 }
 
 Json to_json(const RunResult& run) {
   Json metrics = Json::object();
-  for (const auto& [name, figure] : run.metrics) metrics[name] = to_json(figure);
+  for (const auto& [name, figure] : run.metrics) metrics[name] = number_or_null(figure);
   Json criteria = Json::array();
   for (const scoring::JudgedCriterion& criterion : run.criteria)
     criteria.push_back(to_json(criterion));
@@ -50,7 +46,7 @@ Json to_json(const RunResult& run) {
           {"command", run.command},
           {"error", run.error},
           {"folder", run.folder.generic_string()},
-          {"wall_s", to_json(run.wall_s)},
+          {"wall_s", number_or_null(run.wall_s)},
           {"criteria", criteria},
           {"warnings", warnings},
           {"metrics", metrics}};

@@ -80,7 +80,7 @@ struct SuiteResult {
   std::vector<ScenarioResult> scenarios = {};
 };
 
-/// \throws bench::OutputError
+/// \throws files::OutputError
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
 
 /// The suite's folder. \param path the folder or its suite.json.

@@ -86,7 +86,7 @@ void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run)
 
 /// Runs all planned scenarios. Runs whose results are there already are not repeated.
 /// \return a result for each detector. \throws std::runtime_error if such a run no longer fits, or
-///   if two runs have read a file in different states. bench::OutputError if the result of a run
+///   if two runs have read a file in different states. files::OutputError if the result of a run
 ///   cannot be written.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options);

@@ -16,7 +16,7 @@ namespace lcs::suite {
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
-/// A metric of a run, or `bench::kSizeShare`. Absent if undefined, unknown or without figures.
+/// A metric of a run, or `scoring::kSizeShare`. Absent if undefined, unknown or without figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 
 struct Spread {

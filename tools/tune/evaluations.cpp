@@ -25,9 +25,8 @@ Evaluations::Evaluations(const std::filesystem::path& file, const files::Provena
     : journal_(file, kSign, provenance, fmt::format("{},{}", fmt::join(keys, ","), kColumns),
                kRemedy, [&](const std::string& row, int line) {
                  const auto refuse = [&](const std::string& what) {
-                   throw input::Error(
-                       {file.string(), line},
-                       fmt::format("the row '{}' {}; {}", input::one_line(row), what, kRemedy));
+                   throw input::Error({file.string(), line}, "the row '{}' {}; {}",
+                                      input::one_line(row), what, kRemedy);
                  };
                  const auto cells = files::fields_of(row);
                  if (cells.size() != keys.size() + std::size(kFigures)) {

@@ -20,14 +20,14 @@ class Evaluations {
  public:
   /// Opens or creates the file.
   /// \param provenance all facts and files that the figures depend on. \param keys of the searched
-  ///   parameters. \throws as `bench::Journal`; input::Error for a row of other numbers.
+  ///   parameters. \throws as `files::Journal`; input::Error for a row of other numbers.
   Evaluations(const std::filesystem::path& file, const files::Provenance& provenance,
               const std::vector<std::string>& keys);
 
   /// The figures of these values; absent if not evaluated yet. \param values in the order of keys.
   std::optional<Worth> find(const std::vector<std::string>& values) const;
 
-  /// Appends a row; it is in the file when this returns. \throws bench::OutputError
+  /// Appends a row; it is in the file when this returns. \throws files::OutputError
   void add(const std::vector<std::string>& values, const Worth& worth);
 
  private:

@@ -48,12 +48,12 @@ struct Found {
 using Judge = std::function<Worth(const Parameters&)>;
 
 /// Adds the facts about the search itself to the facts of a provenance.
-void add_facts(files::Provenance::Json& facts, const SearchOptions& options);
+void add_facts(Json& facts, const SearchOptions& options);
 
 /// \param known receives each evaluation. Evaluations that it already holds are not repeated.
 ///   The search is deterministic, so an interrupted search resumes at the same point.
 /// \param tick called after each evaluation with the number so far; an exception ends the search.
-/// \throws bench::OutputError
+/// \throws files::OutputError
 Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
              Evaluations& known, const std::function<void(int)>& tick);
 
