@@ -34,7 +34,7 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   try {
     // Not as an input of this command, which may replace it.
     const auto json =
-        files::parse_json<Json>(files::beginning(folder / files::kHowMadeFile, 1 << 24));
+        files::parse_json<files::Json>(files::beginning(folder / files::kHowMadeFile, 1 << 24));
     before = files::JsonNode(json, "")[what].natural();
   } catch (const std::exception&) {  // of another kind, or made before there was this file
     return;
@@ -46,20 +46,20 @@ void note_longer(const std::filesystem::path& folder, bool is_named, const char*
   throw files::OutputError(text + "; name a place by --out, or remove that folder");
 }
 
-void add_program(Json& facts, const sim::Versions& versions) {
+void add_program(files::Json& facts, const sim::Versions& versions) {
   facts["program"] = program_text();
   if (!versions.mujoco.empty()) facts["mujoco"] = versions.mujoco;
   if (!versions.gl_renderer.empty()) facts["renderer"] = versions.gl_renderer;
   facts["opencv"] = cv::getVersionString();
 }
 
-void add_changed_program(Json& facts) {
+void add_changed_program(files::Json& facts) {
   if (!is_of_a_commit()) facts["program_sha256"] = program_sha256();
 }
 
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
                     const files::Provenance& provenance) {
-  Json json{{"command", command}};
+  files::Json json{{"command", command}};
   json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(request_start.date));
   json["wall_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - request_start.wall).count();

@@ -13,10 +13,10 @@ namespace lcs::app {
 
 /// Adds the program and the versions of its libraries to the facts of a provenance.
 /// \param versions empty if nothing was simulated.
-void add_program(Json& facts, const sim::Versions& versions);
+void add_program(files::Json& facts, const sim::Versions& versions);
 /// Adds the SHA-256 of a program that was built from changed files, which its commit does not tell.
 /// For work that goes on or is joined.
-void add_changed_program(Json& facts);
+void add_changed_program(files::Json& facts);
 
 /// Writes the command, the provenance, the date of the start (UTC), and seconds since. The file has
 /// neither the host's name nor the user's.

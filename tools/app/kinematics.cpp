@@ -33,9 +33,9 @@ KinematicsMade kinematics(const KinematicsRequest& request, Caller& caller) {
     });
   }();
   kinematics::write_study(folder.staging(), study);
-  Json facts{{"scenario", config.scenario.name},
-             {"seed", config.scenario.seed},
-             {"settings", request.sets}};
+  files::Json facts{{"scenario", config.scenario.name},
+                    {"seed", config.scenario.seed},
+                    {"settings", request.sets}};
   add_program(facts, sim::versions());
   write_how_made(folder.staging(), suite::shell_line(arguments_of(request)),
                  files::provenance_of(std::move(facts)));

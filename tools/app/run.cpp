@@ -169,12 +169,12 @@ std::string command_of(const RunRequest& request, const scenario::Scenario& scen
 /// Writes run.json.
 void write_how_made(const RunRequest& request, const scenario::Scenario& scenario,
                     const Frames& frames, const Watching& watching, bool is_own) {
-  Json facts{{"scenario", scenario.name},
-             {"seed", scenario.seed},
-             {"frames", watching.result->frames()},
-             {"detector", watching.spec.name},
-             {"settings", request.sets},
-             {"recorded", request.recorded}};
+  files::Json facts{{"scenario", scenario.name},
+                    {"seed", scenario.seed},
+                    {"frames", watching.result->frames()},
+                    {"detector", watching.spec.name},
+                    {"settings", request.sets},
+                    {"recorded", request.recorded}};
   add_program(facts, frames.versions);
   app::write_how_made(watching.result->output().staging(),
                       command_of(request, scenario, watching, is_own),

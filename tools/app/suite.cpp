@@ -199,15 +199,15 @@ void forget_folders(suite::SuiteResult& result) {
 }
 
 /// The settings on which the runs of a suite depend, and the runs.
-Json facts_of(const SuiteRequest& request, const SuitePlan& planned) {
-  Json facts{{"detector", app::spec_of(request.detector).name},
-             {"detector_command", request.detector.command},
-             {"detector_timeout_s", request.detector.timeout_s},
-             {"detections", request.detector.detections},
-             {"beside", request.beside},
-             {"settings", request.sets},
-             {"recorded", request.recorded},
-             {"keep", word_of(request.keep)}};
+files::Json facts_of(const SuiteRequest& request, const SuitePlan& planned) {
+  files::Json facts{{"detector", app::spec_of(request.detector).name},
+                    {"detector_command", request.detector.command},
+                    {"detector_timeout_s", request.detector.timeout_s},
+                    {"detections", request.detector.detections},
+                    {"beside", request.beside},
+                    {"settings", request.sets},
+                    {"recorded", request.recorded},
+                    {"keep", word_of(request.keep)}};
   facts["split"] = request.worlds.split;
   add_program(facts, sim::versions());
   add_changed_program(facts);

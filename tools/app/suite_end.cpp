@@ -36,9 +36,9 @@ fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
-void add_part(Json& facts, const std::string& shard, const suite::SuiteRuns& runs) {
+void add_part(files::Json& facts, const std::string& shard, const suite::SuiteRuns& runs) {
   std::size_t count = 0;
-  Json scenarios = Json::array();
+  files::Json scenarios = files::Json::array();
   for (const auto& [name, seeds] : runs) {
     scenarios.push_back({{"name", name}, {"seeds", seeds}});
     count += seeds.size();

@@ -47,7 +47,7 @@ std::vector<std::string> other_inputs(const std::filesystem::path& before,
 std::filesystem::path part_of(const std::string& detector, const std::string& own);
 
 /// Adds to the facts of a suite's provenance what differs between its parts.
-void add_part(Json& facts, const std::string& shard, const suite::SuiteRuns& runs);
+void add_part(files::Json& facts, const std::string& shard, const suite::SuiteRuns& runs);
 
 /// The names of these facts.
 inline constexpr std::array<std::string_view, 3> kFactsOfParts{"shard", "runs", "scenarios"};

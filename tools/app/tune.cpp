@@ -74,10 +74,10 @@ void require_different(const TuneRequest& request) {
 /// All that determines the figures of a search. The suites have been read.
 files::Provenance provenance_of(const TuneRequest& request, const tune::Trials& trials,
                                 const tune::SearchOptions& search) {
-  Json facts{{"suites", about(request.suites, trials)},
-             {"settings", request.sets},
-             {"program", program_text()},
-             {"program_sha256", program_sha256()}};
+  files::Json facts{{"suites", about(request.suites, trials)},
+                    {"settings", request.sets},
+                    {"program", program_text()},
+                    {"program_sha256", program_sha256()}};
   tune::add_facts(facts, search);
   return files::provenance_of(std::move(facts));
 }

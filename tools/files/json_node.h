@@ -21,7 +21,7 @@
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 
-namespace lcs {
+namespace lcs::files {
 
 /// Keeps the order of its keys.
 using Json = nlohmann::ordered_json;
@@ -30,10 +30,6 @@ using Json = nlohmann::ordered_json;
 inline Json number_or_null(std::optional<double> number) {
   return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
 }
-
-}  // namespace lcs
-
-namespace lcs::files {
 
 /// A parse error such as "not JSON at byte 12", with the number of lines before it.
 struct JsonError : std::runtime_error {

@@ -201,7 +201,7 @@ std::string line(const FrameRecord& frame, Content&& append_content) {
 }
 
 /// \param head the members before the objects.
-std::string line(const Json& head, const std::vector<sim::Object>& objects) {
+std::string line(const files::Json& head, const std::vector<sim::Object>& objects) {
   std::string out = files::json_text(head);
   out.pop_back();
   append_columns(out, "objects", objects);
@@ -209,7 +209,7 @@ std::string line(const Json& head, const std::vector<sim::Object>& objects) {
 }
 
 std::string header_line(const RunInfo& run) {
-  Json head = {{"scenario", run.scenario}, {"seed", run.seed}};
+  files::Json head = {{"scenario", run.scenario}, {"seed", run.seed}};
   if (!run.world.empty()) head["world"] = run.world;
   if (run.origin) head["origin"] = {{"family", run.origin->family}, {"seed", run.origin->seed}};
   if (run.truth != Truth::all) head["truth"] = kTruths.at(static_cast<std::size_t>(run.truth));
@@ -260,7 +260,7 @@ std::string given_line(const FrameRecord& frame, const EgoMotion* motion) {
 }
 
 std::string objects_line(const std::vector<sim::Object>& objects) {
-  return line(Json::object(), objects);
+  return line(files::Json::object(), objects);
 }
 
 std::string seen_line(const FrameRecord& frame) {
@@ -290,7 +290,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const RunI
   }
   const auto& [name, layered, circles] = run.detector;
   // Whether it has the filter's layers, and whether it has circles.
-  const Json detector = {{"detector", name}, {"layered", layered}, {"circles", circles}};
+  const files::Json detector = {{"detector", name}, {"layered", layered}, {"circles", circles}};
   files::write_file(folder / kDetectorFile, files::json_text(detector) + '\n');
   if (run.camera) files::write_file(folder / kCameraFile, camera_json(*run.camera) + '\n');
 }

@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const std::vector<Warned>& warnings) {
 }
 
 void write_warnings(const std::filesystem::path& path, const std::vector<Warned>& warnings) {
-  Json json;
+  files::Json json;
   for (const Warned& warned : warnings) {
     if (warned.count) json[warned.word] = {{"count", *warned.count}, {"first", warned.text}};
   }

@@ -53,8 +53,8 @@ constexpr std::array<const char*, 10> kCurves{
 // ---- Figures
 
 /// Label and tooltip of each metric for the page.
-Json metrics_json() {
-  Json all = Json::object();
+files::Json metrics_json() {
+  files::Json all = files::Json::object();
   for (const scoring::Metric& metric : scoring::metrics()) {
     all[metric.key] = {{"label", metric.heading()}, {"title", metric.tooltip()}};
   }
@@ -72,40 +72,41 @@ DifferenceOf by_name(const std::vector<suite::Difference>& differences) {
 
 /// Adds the figure's value before, its change and the verdict on it, if both suites have the
 /// figure.
-void add_change(Json& figure, const DifferenceOf& differences, const std::string& owner,
+void add_change(files::Json& figure, const DifferenceOf& differences, const std::string& owner,
                 const std::string& name) {
   const auto found = differences.find({owner, name});
   if (found == differences.end()) return;
   const suite::Difference& difference = *found->second;
   figure["before"] = difference.before;
   figure["change"] = difference.change.mean;
-  figure["half"] = number_or_null(difference.change.half);
+  figure["half"] = files::number_or_null(difference.change.half);
   figure["verdict"] = suite::word_of(difference.verdict);
 }
 
 /// \param whole all figures; else only the table's figures.
-Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences, bool whole) {
-  Json figures = Json::object();
+files::Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences,
+                       bool whole) {
+  files::Json figures = files::Json::object();
   for (const scoring::Metric& metric : scoring::metrics()) {
     if (!whole && std::ranges::find(metric.shown, scoring::Table::report) == metric.shown.end())
       continue;
     const auto now = suite::over_seeds(scenario, metric.key);
     if (!now) continue;
-    Json& figure = figures[metric.key] = {{"mean", now->mean}};
+    files::Json& figure = figures[metric.key] = {{"mean", now->mean}};
     if (now->count > 1) figure["spread"] = now->half;
     add_change(figure, differences, scenario.name, metric.key);
   }
   return figures;
 }
 
-Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
-  Json groups = Json::array();
+files::Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
+  files::Json groups = files::Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
-    Json figures = Json::object();
+    files::Json figures = files::Json::object();
     for (const scoring::Metric& metric : scoring::metrics()) {
       const auto now = suite::over_group(suite, group, metric.key);
       if (!now) continue;
-      figures[metric.key] = {{"mean", number_or_null(now)}};
+      figures[metric.key] = {{"mean", files::number_or_null(now)}};
       add_change(figures[metric.key], differences, group, metric.key);
     }
     groups.push_back({{"name", group},
@@ -118,13 +119,13 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
 
 // ---- Runs
 
-Json criteria_of(const RunResult& run) {
-  Json criteria = Json::array();
+files::Json criteria_of(const RunResult& run) {
+  files::Json criteria = files::Json::array();
   for (const scoring::JudgedCriterion& criterion : run.criteria) {
     criteria.push_back({{"metric", criterion.metric},
-                        {"min", number_or_null(criterion.min)},
-                        {"max", number_or_null(criterion.max)},
-                        {"value", number_or_null(criterion.value)},
+                        {"min", files::number_or_null(criterion.min)},
+                        {"max", files::number_or_null(criterion.max)},
+                        {"value", files::number_or_null(criterion.value)},
                         {"over", criterion.over},
                         {"required", criterion.required},
                         {"met", criterion.met}});
@@ -133,15 +134,15 @@ Json criteria_of(const RunResult& run) {
 }
 
 /// A cell's number with five digits, enough for the pixels of a plot; null for an empty cell.
-Json number_of(std::string_view cell) {
+files::Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
   const std::optional<double> number = files::number_in<double>(cell);
   if (!number) throw std::invalid_argument(fmt::format("'{}' is not a number", cell));
-  return files::parse_json<Json>(fmt::format("{:.5g}", *number));
+  return files::parse_json<files::Json>(fmt::format("{:.5g}", *number));
 }
 
 /// The plotted columns of a run's frames.csv; null if there is no such file.
-Json frames_in(const fs::path& folder) {
+files::Json frames_in(const fs::path& folder) {
   const fs::path file = folder / scoring::kFramesFile;
   if (!fs::exists(file)) return nullptr;
   // A frame takes some 200 bytes.
@@ -151,12 +152,12 @@ Json frames_in(const fs::path& folder) {
   input.next_line(line);
   const std::string header_line = line;
   const std::vector<std::string_view> header = files::fields_of(header_line);
-  Json columns = Json::object();
+  files::Json columns = files::Json::object();
   for (const char* name : kCurves) {
     if (std::ranges::find(header, name) == header.end()) {
       throw input::Error({file.string(), 1}, "has no column {}; {}", name, kFramesTable.remedy);
     }
-    columns[name] = Json::array();
+    columns[name] = files::Json::array();
   }
   while (input.next_line(line)) {
     std::vector<std::string_view> cells = files::fields_of(line);
@@ -174,8 +175,8 @@ Json frames_in(const fs::path& folder) {
   return columns;
 }
 
-Json event_json(const scoring::ScoredEvent& event) {
-  Json reasons = Json::array();
+files::Json event_json(const scoring::ScoredEvent& event) {
+  files::Json reasons = files::Json::array();
   const auto add_reasons = [&](const auto& of_corners) {
     for (const auto& [reason, corners] : of_corners) {
       const auto& [word, meaning] = text_of(reason);
@@ -184,7 +185,7 @@ Json event_json(const scoring::ScoredEvent& event) {
   };
   add_reasons(event.reasons);
   add_reasons(event.steps);
-  Json views = Json::array();
+  files::Json views = files::Json::array();
   for (const scoring::EventView& view : event.views) {
     views.push_back({{"frame", view.frame}, {"t_s", view.t_s}, {"jpeg", view.jpeg_base64}});
   }
@@ -222,8 +223,8 @@ bool has_like(const std::vector<scoring::ScoredEvent>& events, const scoring::Sc
 }
 
 /// The baseline's curves and its vanished events, without pictures. Marks new ones in `events_now`.
-Json before_json(const fs::path& folder, const Events& events, Json& events_now) {
-  Json before = {{"frames", nullptr}, {"gone", Json::array()}, {"error", ""}};
+files::Json before_json(const fs::path& folder, const Events& events, files::Json& events_now) {
+  files::Json before = {{"frames", nullptr}, {"gone", files::Json::array()}, {"error", ""}};
   try {
     before["frames"] = frames_in(folder);
     const Events former = events_in(folder);
@@ -234,7 +235,7 @@ Json before_json(const fs::path& folder, const Events& events, Json& events_now)
     for (const scoring::ScoredEvent& event : *former) {
       if (has_like(*events, event)) continue;
       before["gone"].push_back(event_json(event));
-      before["gone"].back()["views"] = Json::array();
+      before["gone"].back()["views"] = files::Json::array();
     }
   } catch (const std::exception& error) {
     before["error"] = error.what();
@@ -243,20 +244,20 @@ Json before_json(const fs::path& folder, const Events& events, Json& events_now)
 }
 
 /// \param whole with figures, curves and events.
-Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
-              const ScenarioResult& scenario, const RunResult& run, bool whole) {
-  Json json = {{"seed", run.seed},
-               {"outcome", suite::word_of(run.outcome)},
-               {"error", run.error},
-               {"wall_s", number_or_null(run.wall_s)},
-               {"command", run.command},
-               {"criteria", criteria_of(run)},
-               {"warnings", recording::lines_of(run.warnings)},
-               {"folder", run.folder.generic_string()},
-               {"metrics", Json::object()},
-               {"frames", nullptr},
-               {"events", nullptr},
-               {"before", nullptr}};
+files::Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
+                     const ScenarioResult& scenario, const RunResult& run, bool whole) {
+  files::Json json = {{"seed", run.seed},
+                      {"outcome", suite::word_of(run.outcome)},
+                      {"error", run.error},
+                      {"wall_s", files::number_or_null(run.wall_s)},
+                      {"command", run.command},
+                      {"criteria", criteria_of(run)},
+                      {"warnings", recording::lines_of(run.warnings)},
+                      {"folder", run.folder.generic_string()},
+                      {"metrics", files::Json::object()},
+                      {"frames", nullptr},
+                      {"events", nullptr},
+                      {"before", nullptr}};
   if (!whole) return json;
   for (const scoring::Metric& metric : scoring::metrics()) {
     const auto figure = suite::figure_of(run, metric.key);
@@ -267,7 +268,7 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   json["frames"] = frames_in(folder);
   const Events events = events_in(folder);
   if (events) {
-    json["events"] = Json::array();
+    json["events"] = files::Json::array();
     for (const scoring::ScoredEvent& event : *events) json["events"].push_back(event_json(event));
   }
   const ScenarioResult* other = baseline ? suite::find(baseline->suite, scenario.name) : nullptr;
@@ -280,17 +281,17 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
 
 /// Removes pictures until the rest fits the budget. Pictures of cheap events and later seeds go
 /// first, evenly over the families.
-void keep_to_budget(Json& scenarios, std::size_t budget) {
+void keep_to_budget(files::Json& scenarios, std::size_t budget) {
   struct Strip {
     std::size_t turn;  // rank of the event in its run plus twice the index of the run
-    Json* event;
+    files::Json* event;
   };
   std::vector<Strip> strips;
-  for (Json& scenario : scenarios) {
+  for (files::Json& scenario : scenarios) {
     for (std::size_t r = 0; r < scenario["runs"].size(); ++r) {
-      Json& events = scenario["runs"][r]["events"];
+      files::Json& events = scenario["runs"][r]["events"];
       std::map<std::string, std::size_t> rank;  // by family
-      for (Json& event : events) {
+      for (files::Json& event : events) {
         strips.push_back({rank[event["family"]]++ + 2 * r, &event});
       }
     }
@@ -299,31 +300,32 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
   std::size_t used = 0;
   for (const Strip& strip : strips) {
     std::size_t size = 0;
-    for (const Json& view : (*strip.event)["views"]) {
+    for (const files::Json& view : (*strip.event)["views"]) {
       size += view["jpeg"].get_ref<const std::string&>().size();
     }
     if (used + size <= budget) {
       used += size;
       continue;
     }
-    for (Json& view : (*strip.event)["views"]) view["jpeg"] = "";
+    for (files::Json& view : (*strip.event)["views"]) view["jpeg"] = "";
     (*strip.event)["left_out"] = true;
   }
 }
 
-Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
-                   const DifferenceOf& differences, const ScenarioResult& scenario, bool whole) {
-  Json json = {{"name", scenario.name},
-               {"purpose", scenario.purpose},
-               {"file", scenario.file.generic_string()},
-               {"groups", scenario.groups},
-               {"point", Json::array()},
-               {"outcome", suite::word_of(suite::outcome_of(scenario))},
-               {"figures", figures_of(scenario, differences, whole)},
-               {"is_whole", whole},
-               {"runs", Json::array()}};
+files::Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
+                          const DifferenceOf& differences, const ScenarioResult& scenario,
+                          bool whole) {
+  files::Json json = {{"name", scenario.name},
+                      {"purpose", scenario.purpose},
+                      {"file", scenario.file.generic_string()},
+                      {"groups", scenario.groups},
+                      {"point", files::Json::array()},
+                      {"outcome", suite::word_of(suite::outcome_of(scenario))},
+                      {"figures", figures_of(scenario, differences, whole)},
+                      {"is_whole", whole},
+                      {"runs", files::Json::array()}};
   for (const auto& [key, value] : scenario.point) {
-    json["point"].push_back(Json::array({key, value}));
+    json["point"].push_back(files::Json::array({key, value}));
   }
   for (const RunResult& run : scenario.runs) {
     json["runs"].push_back(run_json(suite, baseline, scenario, run, whole));
@@ -331,14 +333,14 @@ Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   return json;
 }
 
-Json words_of(const std::vector<suite::Standing>& standings) {
-  Json words = Json::array();
+files::Json words_of(const std::vector<suite::Standing>& standings) {
+  files::Json words = files::Json::array();
   for (const suite::Standing standing : standings) words.push_back(suite::word_of(standing));
   return words;
 }
 
-Json remarks_of(const suite::SuiteVerdict& verdict) {
-  Json remarks = Json::array();
+files::Json remarks_of(const suite::SuiteVerdict& verdict) {
+  files::Json remarks = files::Json::array();
   for (const suite::Remark& remark : verdict.remarks | std::views::take(kMostRemarks)) {
     remarks.push_back({{"scenario", remark.scenario},
                        {"standings", words_of(remark.standings)},
@@ -367,20 +369,20 @@ std::set<std::string> shown_whole(const SuiteResult& suite, const suite::SuiteVe
 }
 
 /// The page's data. The budget limits only the pictures.
-Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict, const Against* against,
-             std::size_t budget) {
+files::Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
+                    const Against* against, std::size_t budget) {
   const SuiteInFolder* baseline = against ? &against->baseline : nullptr;
   const suite::Comparison* comparison = against ? &against->comparison : nullptr;
   const DifferenceOf of_groups = comparison ? by_name(comparison->groups) : DifferenceOf{};
   const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
-  Json data = {
+  files::Json data = {
       {"verdict", verdict.line},
       {"is_good", verdict.is_good},
       {"run_counts", suite::run_counts(suite.suite)},
       {"note", verdict.note},
       {"remarks", remarks_of(verdict)},
       {"more_remarks", std::max<std::ptrdiff_t>(0, std::ssize(verdict.remarks) - kMostRemarks)},
-      {"not_compared", Json::array()},
+      {"not_compared", files::Json::array()},
       {"detector", suite.suite.detector},
       {"version", suite.suite.version},
       {"sets", suite.suite.sets},
@@ -390,7 +392,7 @@ Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict, con
       {"metrics", metrics_json()},
       {"columns", scoring::keys_in(scoring::Table::report)},
       {"groups", groups_of(suite.suite, of_groups)},
-      {"scenarios", Json::array()}};
+      {"scenarios", files::Json::array()}};
   if (baseline) {
     data["not_compared"] = comparison->incomparable;
     data["baseline"] = {{"detector", baseline->suite.detector},
@@ -416,7 +418,8 @@ std::string report_data(const SuiteInFolder& suite, const suite::SuiteVerdict& v
 }
 
 std::string run_report_data(const SuiteInFolder& suite) {
-  Json data = data_of(suite, suite::verdict_of(suite, nullptr, nullptr), nullptr, kPictureBudget);
+  files::Json data =
+      data_of(suite, suite::verdict_of(suite, nullptr, nullptr), nullptr, kPictureBudget);
   data["is_run"] = true;
   const fs::path video = suite.folder / output::kVideoFile;
   if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {

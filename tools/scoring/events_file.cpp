@@ -9,7 +9,7 @@ namespace {
 
 constexpr input::FileKind kEventsDocument{files::kMostJsonBytes, "run the scenario again"};
 
-Json json_of(const EventView& view) {
+files::Json json_of(const EventView& view) {
   return {{"frame", view.frame},
           {"t_s", view.t_s},
           {"x", view.centre_px.x()},
@@ -21,20 +21,20 @@ Json json_of(const EventView& view) {
 
 /// \param counts pairs of a cause and a number.
 template <class Counts>
-Json by_word(const Counts& counts) {
-  Json json = Json::object();
+files::Json by_word(const Counts& counts) {
+  files::Json json = files::Json::object();
   for (const auto& [cause, count] : counts) json[text_of(cause).word] = count;
   return json;
 }
 
-Json json_of(const ScoredEvent& event) {
-  Json json = {{"kind", text_of(event.kind).word}, {"first_frame", event.first_frame},
-               {"last_frame", event.last_frame},   {"object", event.object},
-               {"object_name", event.object_name}, {"corners", event.corners},
-               {"of", event.counted_corners},      {"radial", event.radial_corners},
-               {"circles", event.circles},         {"frames", event.frames},
-               {"of_frames", event.of_frames},     {"reasons", by_word(event.reasons)},
-               {"steps", by_word(event.steps)},    {"views", Json::array()}};
+files::Json json_of(const ScoredEvent& event) {
+  files::Json json = {{"kind", text_of(event.kind).word}, {"first_frame", event.first_frame},
+                      {"last_frame", event.last_frame},   {"object", event.object},
+                      {"object_name", event.object_name}, {"corners", event.corners},
+                      {"of", event.counted_corners},      {"radial", event.radial_corners},
+                      {"circles", event.circles},         {"frames", event.frames},
+                      {"of_frames", event.of_frames},     {"reasons", by_word(event.reasons)},
+                      {"steps", by_word(event.steps)},    {"views", files::Json::array()}};
   for (const EventView& view : event.views) json["views"].push_back(json_of(view));
   return json;
 }
@@ -103,14 +103,14 @@ std::vector<ScoredEvent> events_in(const files::JsonNode& document) {
 
 void write_events(const std::filesystem::path& file, const std::vector<ScoredEvent>& events,
                   const EventSums& sums) {
-  Json list = Json::array();
+  files::Json list = files::Json::array();
   for (const ScoredEvent& event : events) list.push_back(json_of(event));
   // A name may hold any bytes, but JSON must be UTF-8.
-  const Json all{{"events", list},
-                 {"sums",
-                  {{"missed", by_word(sums.missed)},
-                   {"false", by_word(sums.false_ones)},
-                   {"squares", by_word(sums.squares)}}}};
+  const files::Json all{{"events", list},
+                        {"sums",
+                         {{"missed", by_word(sums.missed)},
+                          {"false", by_word(sums.false_ones)},
+                          {"squares", by_word(sums.squares)}}}};
   files::write_file(file, files::json_text(all, 1) + '\n');
 }
 

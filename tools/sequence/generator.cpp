@@ -199,9 +199,9 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
-Json facts_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
+files::Json facts_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
-  Json facts = {
+  files::Json facts = {
       {"scenario", scenario.name},        {"set", options.sets},        {"seed", scenario.seed},
       {"frames", scenario.frames},        {"formats", options.formats}, {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},

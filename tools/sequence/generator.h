@@ -25,12 +25,12 @@ FrameRange part_of(int count, int i, int n);
 struct GenerateOptions {
   std::vector<std::string> formats;  ///< by name
   std::vector<std::string> sets;     ///< overrides that the scenario was loaded with
-  Json program;                      ///< facts: version and commit of this program
+  files::Json program;               ///< facts: version and commit of this program
 };
 
 /// The settings and versions that determine the bytes of a sequence, beside the files that are
 /// read. Starts GL for its version.
-Json facts_of(const scenario::Scenario& scenario, const GenerateOptions& options);
+files::Json facts_of(const scenario::Scenario& scenario, const GenerateOptions& options);
 
 /// Renders and writes the incomplete frames of a range.
 /// \param on_frame called with the number of complete frames of the range; an exception from it

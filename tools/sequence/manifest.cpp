@@ -16,7 +16,7 @@ constexpr input::FileKind kManifestDocument{
 std::string manifest_text(const files::Provenance& plan, const Agreements& checks,
                           std::vector<FileRecord> files) {
   std::ranges::sort(files, {}, &FileRecord::path);
-  Json manifest;
+  files::Json manifest;
   manifest["plan"] = plan.json();
   for (const auto& [name, agreement] : checks) {
     manifest["checks"][name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};

@@ -144,16 +144,17 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   });
 }
 
-Json lens_json(const sim::Lens& lens) {
-  Json camera = {
-      {"focal_px", lens.fu_px == lens.fv_px ? Json(lens.fu_px) : Json{lens.fu_px, lens.fv_px}},
+files::Json lens_json(const sim::Lens& lens) {
+  files::Json camera = {
+      {"focal_px",
+       lens.fu_px == lens.fv_px ? files::Json(lens.fu_px) : files::Json{lens.fu_px, lens.fv_px}},
       {"centre_px", {lens.cu_px, lens.cv_px}},
       {"width_px", lens.width_px},
       {"height_px", lens.height_px}};
   if (!lens.coefficients.empty()) {
     const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
-    camera["distortion"] =
-        is_fisheye ? Json{{kEquidistant, lens.coefficients}} : Json(lens.coefficients);
+    camera["distortion"] = is_fisheye ? files::Json{{kEquidistant, lens.coefficients}}
+                                      : files::Json(lens.coefficients);
   }
   return camera;
 }
@@ -164,13 +165,13 @@ std::string settings_text(const SequenceInfo& info) {
   const scenario::Scenario& scenario = info.scenario;
   const sim::Calibration& calibration = info.calibration;
   const Eigen::Vector3d& v = calibration.v_WB_start_mps;
-  Json noise;
+  files::Json noise;
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
-  Json filter = Json::object();
+  files::Json filter = files::Json::object();
   for (const scenario::FilterSetting& setting : scenario.filter) {
     filter[setting.key] = setting.value;  // the last setting of a key holds
   }
-  Json json = {
+  files::Json json = {
       {"scenario", scenario.name},
       {"seed", scenario.seed},
       {"start_ns", kEpoch_ns},
@@ -188,7 +189,7 @@ std::string settings_text(const SequenceInfo& info) {
       {"odometry_noise_mps", scenario.odometry.noise_mps},
       {"odometry_yaw_noise_radps", scenario.odometry.yaw_noise_radps},
       {"fast_threshold",
-       scenario.fast_threshold ? Json(*scenario.fast_threshold) : Json(kFromPicture)},
+       scenario.fast_threshold ? files::Json(*scenario.fast_threshold) : files::Json(kFromPicture)},
       {"filter_preset", scenario.filter_preset},
       {"filter", filter},
   };

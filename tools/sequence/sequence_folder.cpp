@@ -82,7 +82,7 @@ std::string SequenceFolder::other_than(const files::Provenance& there,
   return what.empty() ? files::changed_since(there, base_) : what;
 }
 
-bool SequenceFolder::is_complete(const Json& facts) {
+bool SequenceFolder::is_complete(const files::Json& facts) {
   facts_ = facts;
   if (finished_) {
     const auto may_differ = adds_ ? std::span(kOfFormats) : std::span<const std::string_view>();

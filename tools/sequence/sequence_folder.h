@@ -48,7 +48,7 @@ class SequenceFolder {
   /// \param facts all settings that determine its bytes.
   /// \return whether the target has it already, whole and as it was written.
   /// \throws files::OutputError that names the first difference of another sequence.
-  bool is_complete(const Json& facts);
+  bool is_complete(const files::Json& facts);
 
   /// Whether a frame is finished and its files are as they were written.
   bool is_whole(int frame);
@@ -94,7 +94,7 @@ class SequenceFolder {
   std::filesystem::path base_;
   bool adds_;
   std::optional<files::Provenance> finished_;  ///< of the sequence in the target
-  Json facts_;
+  files::Json facts_;
   std::optional<files::Journal> journal_;  ///< of this process
   std::map<std::filesystem::path, files::JournalReader> journals_;
   std::map<int, FrameEntry> entries_;

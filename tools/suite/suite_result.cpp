@@ -19,11 +19,11 @@ constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 
 // ---- Writing
 
-Json to_json(const scoring::JudgedCriterion& criterion) {
+files::Json to_json(const scoring::JudgedCriterion& criterion) {
   return {{"metric", criterion.metric},
-          {"min", number_or_null(criterion.min)},
-          {"max", number_or_null(criterion.max)},
-          {"value", number_or_null(criterion.value)},
+          {"min", files::number_or_null(criterion.min)},
+          {"max", files::number_or_null(criterion.max)},
+          {"value", files::number_or_null(criterion.value)},
           {"required", criterion.required},
           {"met", criterion.met},
           {"over", criterion.over},
@@ -31,13 +31,13 @@ Json to_json(const scoring::JudgedCriterion& criterion) {
           {"message", criterion.message}};
 }
 
-Json to_json(const RunResult& run) {
-  Json metrics = Json::object();
-  for (const auto& [name, figure] : run.metrics) metrics[name] = number_or_null(figure);
-  Json criteria = Json::array();
+files::Json to_json(const RunResult& run) {
+  files::Json metrics = files::Json::object();
+  for (const auto& [name, figure] : run.metrics) metrics[name] = files::number_or_null(figure);
+  files::Json criteria = files::Json::array();
   for (const scoring::JudgedCriterion& criterion : run.criteria)
     criteria.push_back(to_json(criterion));
-  Json warnings = Json::object();
+  files::Json warnings = files::Json::object();
   for (const recording::Warned& warned : run.warnings) {
     warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
   }
@@ -46,21 +46,21 @@ Json to_json(const RunResult& run) {
           {"command", run.command},
           {"error", run.error},
           {"folder", run.folder.generic_string()},
-          {"wall_s", number_or_null(run.wall_s)},
+          {"wall_s", files::number_or_null(run.wall_s)},
           {"criteria", criteria},
           {"warnings", warnings},
           {"metrics", metrics}};
 }
 
-Json to_json(const ScenarioResult& scenario) {
-  Json runs = Json::array();
+files::Json to_json(const ScenarioResult& scenario) {
+  files::Json runs = files::Json::array();
   for (const RunResult& run : scenario.runs) runs.push_back(to_json(run));
-  Json json{{"name", scenario.name},
-            {"purpose", scenario.purpose},
-            {"file", scenario.file.generic_string()},
-            {"groups", scenario.groups},
-            {"point", scenario.point},  // a list of pairs, because a key may occur twice
-            {"runs", runs}};
+  files::Json json{{"name", scenario.name},
+                   {"purpose", scenario.purpose},
+                   {"file", scenario.file.generic_string()},
+                   {"groups", scenario.groups},
+                   {"point", scenario.point},  // a list of pairs, because a key may occur twice
+                   {"runs", runs}};
   if (scenario.drawn) {
     json["drawn"] = {{"family", scenario.drawn->family},
                      {"again", scenario.drawn->again},
@@ -69,8 +69,8 @@ Json to_json(const ScenarioResult& scenario) {
   return json;
 }
 
-Json to_json(const PartOf& part) {
-  Json whole = Json::array();
+files::Json to_json(const PartOf& part) {
+  files::Json whole = files::Json::array();
   for (const auto& [name, seeds] : part.whole) whole.push_back({{"name", name}, {"seeds", seeds}});
   return {{"part", part.shard.part}, {"parts", part.shard.parts}, {"whole", whole}};
 }
@@ -198,13 +198,13 @@ const char* word_of(Outcome outcome) {
 }
 
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
-  Json scenarios = Json::array();
+  files::Json scenarios = files::Json::array();
   for (const ScenarioResult& scenario : suite.scenarios) scenarios.push_back(to_json(scenario));
-  Json json{{"format", kFormat},
-            {"detector", suite.detector},
-            {"sets", suite.sets},
-            {"version", suite.version},
-            {"recorded", suite.recorded}};
+  files::Json json{{"format", kFormat},
+                   {"detector", suite.detector},
+                   {"sets", suite.sets},
+                   {"version", suite.version},
+                   {"recorded", suite.recorded}};
   if (!suite.beside.empty()) json["beside"] = suite.beside;
   if (!suite.split.empty()) json["split"] = suite.split;
   if (suite.part_of) json["part_of"] = to_json(*suite.part_of);

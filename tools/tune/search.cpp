@@ -86,9 +86,9 @@ std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string
   return axes;
 }
 
-void add_facts(Json& facts, const SearchOptions& options) {
+void add_facts(files::Json& facts, const SearchOptions& options) {
   facts["seed"] = options.seed;
-  facts["keys"] = Json::array();
+  facts["keys"] = files::Json::array();
   for (const Axis& axis : options.axes) {
     facts["keys"].push_back(axis.key);
     facts[axis.key] = fmt::format("{}, tried from {} to {}", axis.start, axis.low, axis.high);

@@ -48,7 +48,7 @@ struct Found {
 using Judge = std::function<Worth(const Parameters&)>;
 
 /// Adds the facts about the search itself to the facts of a provenance.
-void add_facts(Json& facts, const SearchOptions& options);
+void add_facts(files::Json& facts, const SearchOptions& options);
 
 /// \param known receives each evaluation. Evaluations that it already holds are not repeated.
 ///   The search is deterministic, so an interrupted search resumes at the same point.
