@@ -498,11 +498,11 @@ Parts any_shelf(Kit& k) {
   return shelf(k, size, k.draw.whole(3, 5), false).parts;
 }
 
-struct Kind {
+struct ThingKind {
   std::string_view name;
   Parts (*make)(Kit&);
 };
-constexpr Kind kKinds[] = {
+constexpr ThingKind kKinds[] = {
     {"drum", drum},       {"ball", ball},       {"bollard", bollard},   {"cone", cone},
     {"person", person},   {"cart", cart},       {"car", car},           {"van", van},
     {"table", table},     {"chair", chair},     {"cupboard", cupboard}, {"bin", bin},
@@ -581,7 +581,7 @@ Thing hanging(Kit& kit, double ceiling_m, double foot_m) {
 }
 
 Thing make_thing(Kit& kit, const std::string& kind) {
-  const auto* const found = std::ranges::find(kKinds, kind, &Kind::name);
+  const auto* const found = std::ranges::find(kKinds, kind, &ThingKind::name);
   if (found == std::end(kKinds)) throw std::invalid_argument("no thing is called '" + kind + "'");
   return {kind, found->make(kit)};
 }

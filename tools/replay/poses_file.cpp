@@ -15,7 +15,7 @@
 namespace lcs::replay {
 namespace {
 
-constexpr std::size_t kTumFields = 8, kRows = 12, kMatrix = 16;
+constexpr std::size_t kTumFields = 8, kThreeRows = 12, kMatrix = 16;
 /// Tolerance for poses with few digits, or computed in single precision.
 constexpr double kTolerance = 1e-2;
 /// Farther from the origin, a position has no precise digits left.
@@ -129,7 +129,7 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   poses.of_body = table.find("p_RS_R_x").has_value();
   poses.timed = named || fields == kTumFields;
   poses.numbered = !poses.timed && fields == kMatrix + 1;
-  if (!poses.timed && fields != kRows && fields != kMatrix && fields != kMatrix + 1) {
+  if (!poses.timed && fields != kThreeRows && fields != kMatrix && fields != kMatrix + 1) {
     refuse(first.line,
            fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
                        "a matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, "
