@@ -234,7 +234,8 @@ void fields(Accelerometers& accelerometers, Visit&& visit) {
 
 template <class Visit>
 void fields(Imu& imu, Visit&& visit) {
-  auto& [preset, noise, gyroscopes, accelerometers, position_m, rpy_rad, rate_hz, gaps] = imu;
+  auto& [preset, noise, gyroscopes, accelerometers, position_m, rpy_rad, reading, rate_hz, gaps] =
+      imu;
   auto& [gyroscope_density, gyroscope_walk, accelerometer_density, accelerometer_walk,
          gyroscope_bias_radps, accelerometer_bias_mps2] = noise;
   std::string known = imu_preset(preset) ? preset : "ideal";
@@ -266,6 +267,10 @@ void fields(Imu& imu, Visit&& visit) {
   visit({"rotation", "[roll, pitch, yaw] of the IMU's axes in the rover, as `camera.rotation`",
          "from the site `imu` in its file"},
         rpy_rad, kAngle);
+  visit({"reading",
+         "`mean` over the period before its stamp, as of a unit that integrates; `sample` of the "
+         "instant of its stamp, as Kalibr and spline fits take it"},
+        reading, Words{{"mean", "sample"}});
   visit({"gaps", "a list of [from, to]: times without readings, from above 0, increasing", "none"},
         gaps);
   visit({"rate", "samples a second"}, rate_hz, kSensorRate);
@@ -339,8 +344,8 @@ void fields(Image::Noise& noise, Visit&& visit) {
 
 template <class Visit>
 void fields(Image& image, Visit&& visit) {
-  auto& [light_lx, shadows, headlights, visibility_m, rain, blur_px, vignetting, exposure_s, gain,
-         auto_exposure, noise, jpeg_quality] = image;
+  auto& [light_lx, shadows, headlights, visibility_m, rain, samples, point_spread_px, blur_px,
+         vignetting, exposure_s, gain, auto_exposure, noise, jpeg_quality] = image;
   visit({"light", "on the scene: 10 klx is an overcast day, 100 lx dusk, 0.5 lx night"}, light_lx,
         kIlluminance);
   visit({"shadows",
@@ -352,7 +357,17 @@ void fields(Image& image, Visit&& visit) {
   visit({"visibility", "distance at which contrast falls to 2 %", "none: clear air"}, visibility_m,
         kDistance);
   visit({"rain", "`{rate: 15, lens_drops: 25, drop_life: 4 s}`", "none"}, rain);
-  visit({"blur", "standard deviation in pixels, on top of the lens's own"}, blur_px, kBlur);
+  visit({"samples",
+         "points of each pixel whose light is averaged, 1, 4, 5 or 9: outlines are in place to "
+         "1, 1/2, 1/5 or 1/3 px"},
+        samples, Whole{1, 9});
+  visit({"point_spread",
+         "standard deviation of a sharp lens's point spread, in pixels; 0.6 and a pixel's area "
+         "leave half of the contrast at 0.28 cycles a pixel"},
+        point_spread_px, kBlur);
+  visit(
+      {"blur", "of a lens that is not sharp: standard deviation in pixels, beside `point_spread`"},
+      blur_px, kBlur);
   visit({"vignetting",
          "share of the light that the farthest corner of the picture loses; it grows with the "
          "squared distance from the principal point"},
@@ -447,8 +462,9 @@ template <class Visit>
 void fields(StartTrigger& start, Visit&& visit) {
   auto& [at_s, ego_within_m] = start;
   visit({"time", "the actor starts not before this time"}, at_s, kTime);
-  visit({"ego_within", "nor before the ego is as near as this", "at any distance"}, ego_within_m,
-        kDistance);
+  visit({"ego_within", "nor before the ego is as near as this, from origin to origin in the plane",
+         "at any distance"},
+        ego_within_m, kDistance);
 }
 
 template <class Visit>

@@ -439,6 +439,10 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
 
 /// Checks that the first exposure and gain are ones that the control may choose.
 void complete(input::Reader& reader, Image& image) {
+  constexpr std::array kSamples{1, 4, 5, 9};
+  if (std::ranges::find(kSamples, image.samples) == kSamples.end()) {
+    reader.refuse("samples", fmt::format(" is {}; give 1, 4, 5 or 9", image.samples));
+  }
   if (image.shadows && image.headlights) {
     reader.refuse("headlights",
                   " light places that the shadows of other lights leave dark, which the simulator "

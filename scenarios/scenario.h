@@ -165,6 +165,12 @@ struct TimeSpan {
   double to_s = 0;
 };
 
+/// What an IMU's reading tells; `sim/imu/imu.h` has both definitions.
+enum class ImuReading {
+  mean,    ///< over the time since the reading before, as of a unit that integrates its rates
+  sample,  ///< of the instant of its stamp
+};
+
 struct Imu {
   /// adis16448, tumvi, esim, ideal, or custom when a key overrides the preset.
   std::string preset = "adis16448";
@@ -174,6 +180,7 @@ struct Imu {
   std::optional<Eigen::Vector3d> position_m;  ///< of the IMU in B; absent: as in the rover's file
   /// As `Camera::mount_rpy_rad`, of the IMU's axes; absent: as in the rover's file.
   std::optional<Eigen::Vector3d> rpy_rad;
+  ImuReading reading = ImuReading::mean;
   double rate_hz = 200;
   std::vector<TimeSpan> gaps;  ///< without readings, in order; each begins after 0
 };
@@ -245,7 +252,11 @@ struct Image {
   std::optional<Headlights> headlights;
   std::optional<double> visibility_m;  ///< at which contrast falls to 2 %; absent: clear air
   std::optional<Rain> rain;
-  double blur_px = 0;  ///< standard deviation, in addition to the lens blur
+  int samples = 5;  ///< of the light that falls on each pixel: 1, 4, 5 or 9
+  /// Standard deviation of a sharp lens's point spread. With a pixel's area it leaves half of the
+  /// contrast at .28 cycles a pixel: a sharp camera as slanted edges (ISO 12233) measure it.
+  double point_spread_px = 0.6;
+  double blur_px = 0;  ///< standard deviation, in addition to the sharp lens's
   /// Share of the light that a corner of the picture loses; it grows with the squared distance from
   /// the principal point to the farthest corner.
   double vignetting = 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "sim/base/random.h"
-#include "sim/camera/linear_light.h"
 #include "sim/drive.h"
 #include "sim/events/sampling.h"
 
@@ -61,8 +60,8 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
     : scenario_(scenario),
       world_(scenario, wrong_start),
       calibration_(calibrate(world_, scenario.camera)),
-      renderer_(world_.model(), world_.camera_id(), calibration_.optics, world_.groups(),
-                casts_shadows(scenario, world_)),
+      renderer_(world_.model(), world_.camera_id(), calibration_.optics, scenario.image.samples,
+                world_.groups(), casts_shadows(scenario, world_)),
       parts_(outlines(world_)),
       photographer_(photographer_of(scenario, calibration_.optics)),
       passage_(world_, scenario) {
@@ -73,13 +72,18 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
 
 Observation Observer::observe() {
   Observation o;
+  Drawing drawing;
   const Shutter& shutter = passage_.shutter();
-  if (shutter.is_instant()) render(o);
+  if (shutter.is_instant()) drawing = draw(true);
   FrameState frame = std::move(passage_.frame());
   passage_.advance(o);
-  if (!shutter.is_instant()) render_through_shutter(frame, o);
+  if (!shutter.is_instant()) drawing = draw_through_shutter(frame, o.index);
+  o.rendered = drawing.even;
+  o.geom = drawing.geom;
+  o.truth.depth_m = drawing.depth_m;
+  o.truth.shadow_edge = drawing.shadow_edge;
   if (event_sensor_) sense_events(frame, o);
-  develop(o);
+  develop(drawing.light, o);
   o.truth.now = std::move(frame.now);
   o.truth.v_WC_mps = frame.v_WC_mps;
   o.truth.w_C_radps = frame.w_C_radps;
@@ -123,27 +127,19 @@ void Observer::advance() {
   passage_.advance(skipped);
 }
 
-void Observer::render(Observation& o) {
+/// Draws the world as it is shown now. Without `has_truth` depth and geoms may be missing.
+Observer::Drawing Observer::draw(bool has_truth) {
+  Drawing d;
   renderer_.update();
-  renderer_.render_colour(o.rendered);
-  renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
-  cv::Mat3b shaded;
-  if (scenario_.image.shadows) renderer_.render_shaded(shaded, o.truth.shadow_edge);
-  CameraRenderer::blur(scenario_.image.shadows ? shaded : o.rendered, o.image);
-}
-
-/// The picture that the lens gets, and 1 near the edges of its shadows if there are any.
-void Observer::render_seen(cv::Mat3b& picture, cv::Mat1i& edge) {
+  renderer_.render_light(d.even);
+  d.light = d.even;
+  if (!has_truth && !scenario_.image.shadows) return d;
+  renderer_.render_depth_and_geoms(d.depth_m, d.geom);
   if (scenario_.image.shadows) {
-    renderer_.render_shaded(picture, edge);
-  } else {
-    renderer_.render_colour(picture);
+    d.light.release();
+    renderer_.render_shaded(d.even, d.geom, d.light, d.shadow_edge);
   }
-}
-
-void Observer::show(const ScenePoses& stage) {
-  world_.show(stage);
-  renderer_.update();
+  return d;
 }
 
 /// Calls `on_point(parts_px)` for every eighth pixel of a drawing, with the lengths of the ways
@@ -230,89 +226,68 @@ void Observer::sense_events(const FrameState& frame, Observation& o) {
     }
   }
   const ScenePoses present = world_.stage();
-  cv::Mat3b drawing;
-  cv::Mat1f depth_m;
-  cv::Mat1i geom, edge;
   for (const std::size_t cell : chosen) {
-    show(instants[cell].stage);
-    render_seen(drawing, edge);
-    if (photographer_.depends_on_depth()) renderer_.render_depth_and_geoms(depth_m, geom);
-    CameraRenderer::blur(drawing, drawing);
-    event_sensor_->see(photographer_.light(drawing, depth_m), instants[cell].t_ns, o.events);
+    world_.show(instants[cell].stage);
+    const Drawing d = draw(photographer_.depends_on_depth());
+    event_sensor_->sample(photographer_.light(d.light, d.depth_m), instants[cell].t_ns, o.events);
   }
   world_.show(present);
   sensed_ = {frame.now, o.truth.depth_m.clone(), o.geom.clone()};
 }
 
-void Observer::render_through_shutter(const FrameState& frame, Observation& o) {
+/// The drawing of a frame whose pixels see the world at several instants. Its light is the mean
+/// over the exposure; all else is that of the middle of the exposure, of each row.
+Observer::Drawing Observer::draw_through_shutter(const FrameState& frame, int index) {
   const Shutter& shutter = passage_.shutter();
   const ScenePoses present = world_.stage();
-  show(frame.stages[Shutter::kMiddle]);
-  renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
-  const double shift = shift_px(frame, o.truth.depth_m, o.geom);
+  world_.show(frame.stages[Shutter::kMiddle]);
+  const Drawing middle = draw(true);
+  const double shift = shift_px(frame, middle.depth_m, middle.geom);
   const int n = Shutter::drawings_for(shift);
   if (shift > n * Shutter::kMostShift_px) {
     world_.warnings().add(Warning::coarse_shutter,
                           fmt::format("frame {} shifts by {:.0f} px during readout and exposure, "
                                       "and is drawn at {} instants, {:.2f} px apart",
-                                      o.index, shift, n, shift / n));
+                                      index, shift, n, shift / n));
   }
-  const bool has_shadows = scenario_.image.shadows;
-  cv::Mat3f light;
-  cv::Mat3b drawing, seen, sharp;  // `seen` and `sharp` have the shadows
-  cv::Mat1f depth_m;
-  cv::Mat1i geom, edge;
-  if (!shutter.rolls()) {  // of the frame's time, as the truth
-    renderer_.render_colour(o.rendered);
-    if (has_shadows) renderer_.render_shaded(seen, o.truth.shadow_edge);
-  }
+  Drawing seen;  // whole, with the rows of the middle until they are replaced
+  const auto copy = [](const auto& from) { return from.empty() ? from : from.clone(); };
+  seen.even = copy(middle.even);
+  seen.light = copy(middle.light);
+  seen.depth_m = copy(middle.depth_m);
+  seen.geom = copy(middle.geom);
+  seen.shadow_edge = copy(middle.shadow_edge);
+  if (shutter.smears()) seen.light.setTo(0);
   for (int i = 0; i < n; ++i) {
-    show(frame.stages[Shutter::instant_of(i, n)]);
-    render_seen(seen, edge);
-    const int rows = seen.rows;
-    if (shutter.smears()) {
-      if (light.empty()) light = cv::Mat3f::zeros(seen.size());
-      const cv::Mat3f linear = to_linear(seen);
-      for (int y = 0; y < rows; ++y) {
-        if (const double share = shutter.share(y, i, n); share > 0) {
-          cv::scaleAdd(linear.row(y), share, light.row(y), light.row(y));
-        }
-      }
-    }
-    if (!shutter.rolls()) continue;
-    if (o.rendered.empty()) {
-      o.rendered.create(seen.size());
-      sharp.create(seen.size());
-      if (has_shadows) o.truth.shadow_edge.create(seen.size());
-    }
     std::vector<int> own;  // rows whose time is in this cell: they are next to each other
-    for (int y = 0; y < rows; ++y) {
+    for (int y = 0; y < seen.even.rows && shutter.rolls(); ++y) {
       if (shutter.drawing_of(y, n) == i) own.push_back(y);
     }
-    if (own.empty()) continue;
-    renderer_.render_depth_and_geoms(depth_m, geom);
-    const cv::Range range(own.front(), own.back() + 1);
-    const auto take = [&](const cv::Mat& from, cv::Mat& to) {
-      from.rowRange(range).copyTo(to.rowRange(range));
-    };
-    take(seen, sharp);
-    if (has_shadows) {
-      renderer_.render_colour(drawing);
-      take(drawing, o.rendered);
-      take(edge, o.truth.shadow_edge);
-    } else {
-      take(seen, o.rendered);
+    if (own.empty() && !shutter.smears()) continue;
+    world_.show(frame.stages[Shutter::instant_of(i, n)]);
+    const Drawing now = draw(!own.empty());
+    for (int y = 0; y < seen.light.rows && shutter.smears(); ++y) {
+      if (const double share = shutter.share(y, i, n); share > 0) {
+        cv::scaleAdd(now.light.row(y), share, seen.light.row(y), seen.light.row(y));
+      }
     }
-    take(depth_m, o.truth.depth_m);
-    take(geom, o.geom);
+    if (own.empty()) continue;
+    const cv::Range rows(own.front(), own.back() + 1);
+    const auto take = [&](const cv::Mat& from, cv::Mat& to) {
+      if (!from.empty()) from.rowRange(rows).copyTo(to.rowRange(rows));
+    };
+    take(now.even, seen.even);
+    if (!shutter.smears()) take(now.light, seen.light);
+    take(now.depth_m, seen.depth_m);
+    take(now.geom, seen.geom);
+    take(now.shadow_edge, seen.shadow_edge);
   }
   world_.show(present);
-  if (shutter.smears()) to_codes(light, sharp);
-  CameraRenderer::blur(sharp, o.image);
+  return seen;
 }
 
-void Observer::develop(Observation& o) {
-  o.exposure = photographer_.develop(o.image, o.truth.depth_m, o.index);
+void Observer::develop(const cv::Mat3f& light, Observation& o) {
+  o.exposure = photographer_.develop(light.clone(), o.truth.depth_m, o.index, o.image);
   const auto label = [&](cv::Mat1i& pixels, auto&& of_geom) {
     pixels.create(o.geom.size());
     const int* const geoms = o.geom.ptr<int>();

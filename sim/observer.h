@@ -38,16 +38,20 @@ class Observer {
   void advance();
 
  private:
-  void render(Observation& o);
-  void render_through_shutter(const FrameState& frame, Observation& o);
-  void render_seen(cv::Mat3b& picture, cv::Mat1i& edge);
-  void show(const ScenePoses& stage);
+  /// Light is linear, BGR, before lens and lamps.
+  struct Drawing {
+    cv::Mat3f even, light;  ///< without shadows; with those that the scenario wants
+    cv::Mat1f depth_m;
+    cv::Mat1i geom, shadow_edge;
+  };
+  Drawing draw(bool has_truth);
+  Drawing draw_through_shutter(const FrameState& frame, int index);
   template <class OnPoint>
   void visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
                   const cv::Mat1f& depth_m, const cv::Mat1i& geom, OnPoint&& on_point) const;
   double shift_px(const FrameState& frame, const cv::Mat1f& depth_m, const cv::Mat1i& geom) const;
   void sense_events(const FrameState& frame, Observation& o);
-  void develop(Observation& o);
+  void develop(const cv::Mat3f& light, Observation& o);
   std::vector<double> areas_px(const cv::Mat1i& object) const;
   std::vector<ObjectTruth> visible_objects(const FrameTruth& truth) const;
   void note_unseen();

@@ -25,10 +25,10 @@ namespace lcs::sim {
 struct Observation : FrameReadings {
   cv::Mat3b image;    ///< BGR
   Exposure exposure;  ///< of `image`
-  /// BGR, before lens blur, light, shadows, weather and sensor: each pixel shows one surface, as in
-  /// the truth. With a distortion a pixel at an outline mixes its two surfaces.
-  cv::Mat3b rendered;
-  cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
+  /// Linear light, BGR, before lens blur, lamps, shadows, weather and sensor. A pixel at an outline
+  /// mixes its surfaces, by the area that each covers.
+  cv::Mat3f rendered;
+  cv::Mat1i geom;  ///< the model's geom at each pixel's middle; -1 for the sky
   /// t(k-1) < t <= t(k), in order; empty without event pixels.
   std::vector<Event> events;
   FrameTruth truth;

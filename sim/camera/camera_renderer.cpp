@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "sim/camera/gl_context.h"
+#include "sim/camera/round_cylinders.h"
 #include "sim/scene/trial.h"
 
 namespace lcs::sim {
@@ -19,18 +21,28 @@ namespace {
 
 constexpr double kNear = 0.05;     // m
 constexpr double kLeastFar = 100;  // m
-// Standard deviation of the lens's point spread.
-constexpr double kLensBlur_px = 0.6;
 
 // Side of a shadow map, in texels; it spans twice the scene's extent for a directional light.
 constexpr int kShadowMap = 4096;
-// Least difference of the share of light from pixel to pixel at the edge of a shadow.
-constexpr double kShadowStep = 0.04;
 
-void prepare(mjModel& m, int width_px, int height_px, bool has_shadows) {
-  m.vis.global.offwidth = width_px;
-  m.vis.global.offheight = height_px;
+// Constants of GL/gl.h and GL/glext.h, which need not be installed.
+constexpr unsigned kRenderbuffer = 0x8D41, kRgba16 = 0x805B;
+constexpr unsigned kRgba = 0x1908, kUnsignedShort = 0x1403;
+constexpr unsigned kModelview = 0x1700;
+constexpr unsigned kFirstClipPlane = 0x3001;  // MuJoCo uses the one before for reflections
+constexpr unsigned kClipPlanes = 4;
+
+/// Whether light is even on every flat surface, so that it needs no vertices inside.
+bool has_only_directional_lights(const mjModel& m) {
+  return std::all_of(m.light_type, m.light_type + m.nlight,
+                     [](int type) { return type == mjLIGHT_DIRECTIONAL; });
+}
+
+void prepare(mjModel& m, cv::Size buffer_px, bool has_shadows) {
+  m.vis.global.offwidth = buffer_px.width;
+  m.vis.global.offheight = buffer_px.height;
   m.vis.quality.offsamples = 0;
+  if (has_only_directional_lights(m)) m.vis.quality.numquads = 1;
   m.vis.quality.shadowsize = has_shadows ? kShadowMap : 0;
   // MuJoCo's clipping planes are in multiples of the scene's extent
   const double extent = m.stat.extent;
@@ -47,8 +59,8 @@ void prepare(mjModel& m, int width_px, int height_px, bool has_shadows) {
 
 /// Mesa crashes when it runs out of memory. \throws std::runtime_error if the memory limit (ulimit
 /// -v) is too small to render an image. Checks at the first renderer of the process only.
-void check_memory(Model& model, const GeomGroups& groups, int camera, int width_px, int height_px,
-                  bool has_shadows) {
+void check_memory(Model& model, int camera, const View& colour, const View& truth,
+                  const GeomGroups& groups, bool has_shadows) {
   static std::atomic<bool> checked = false;
   struct rlimit memory = {};
   if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY ||
@@ -59,12 +71,11 @@ void check_memory(Model& model, const GeomGroups& groups, int camera, int width_
   const Trial trial = try_in_child([&] {
     memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
     ::setrlimit(RLIMIT_AS, &memory);
-    CameraRenderer renderer(model, camera, width_px, height_px, groups, has_shadows);
-    cv::Mat3b picture;
+    CameraRenderer renderer(model, camera, colour, truth, groups, has_shadows);
     cv::Mat1f depth;
     cv::Mat1i geoms;
     renderer.update();
-    renderer.render_colour(picture);
+    renderer.render_codes();
     renderer.render_depth_and_geoms(depth, geoms);
   });
   if (trial.fine) return;
@@ -72,99 +83,35 @@ void check_memory(Model& model, const GeomGroups& groups, int camera, int width_
   throw std::runtime_error(
       fmt::format("software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit "
                   "-v, or choose a smaller camera size",
-                  width_px, height_px, memory.rlim_cur >> 20,
+                  truth.pinhole.width_px, truth.pinhole.height_px, memory.rlim_cur >> 20,
                   trial.crash.empty() ? trial.refused : trial.crash));
-}
-
-double sum(const cv::Vec3b& colour) {
-  return colour[0] + colour[1] + colour[2];
-}
-
-/// The most by which rounding to grey levels changes the share of light of a pixel.
-double rounding(const cv::Vec3b& even) {
-  return 3 / std::max(sum(even), 1.0);
-}
-
-/// The share of its light that each pixel keeps in shadow.
-cv::Mat1f shares_of(const cv::Mat3b& even, const cv::Mat3b& shaded) {
-  cv::Mat1f share(even.size());
-  std::transform(even.begin(), even.end(), shaded.begin(), share.begin(),
-                 [](const cv::Vec3b& lit, const cv::Vec3b& dark) {
-                   return static_cast<float>(sum(lit) > 0 ? sum(dark) / sum(lit) : 1);
-                 });
-  return share;
-}
-
-void take_speckles_away(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& shaded) {
-  constexpr int kReach_px = 2;
-  const cv::Mat1f share = shares_of(even, shaded);
-  cv::Mat1f least, most;  // of the whole window
-  const cv::Mat window_of_ones = cv::Mat::ones(2 * kReach_px + 1, 2 * kReach_px + 1, CV_8U);
-  cv::erode(share, least, window_of_ones);
-  cv::dilate(share, most, window_of_ones);
-  const cv::Rect picture({}, geom.size());
-  std::vector<float> around;
-  for (int y = 0; y < geom.rows; ++y) {
-    for (int x = 0; x < geom.cols; ++x) {
-      // usually the median cannot differ
-      if (geom(y, x) < 0 || most(y, x) - least(y, x) <= rounding(even(y, x))) continue;
-      around.clear();
-      const cv::Rect window =
-          cv::Rect(x - kReach_px, y - kReach_px, 2 * kReach_px + 1, 2 * kReach_px + 1) & picture;
-      for (int row = window.y; row < window.br().y; ++row) {
-        for (int column = window.x; column < window.br().x; ++column) {
-          if (geom(row, column) == geom(y, x)) around.push_back(share(row, column));
-        }
-      }
-      const auto middle = around.begin() + std::ssize(around) / 2;
-      std::nth_element(around.begin(), middle, around.end());
-      if (std::abs(share(y, x) - *middle) <= rounding(even(y, x))) continue;
-      for (int c = 0; c < 3; ++c) {
-        shaded(y, x)[c] = cv::saturate_cast<uchar>(*middle * static_cast<float>(even(y, x)[c]));
-      }
-    }
-  }
-}
-
-cv::Mat1b shadow_edges(const cv::Mat3b& even, const cv::Mat1i& geom, const cv::Mat3b& shaded) {
-  const cv::Mat1f share = shares_of(even, shaded);
-  cv::Mat1b edge(geom.size(), uchar{0});
-  for (int y = 0; y < geom.rows; ++y) {
-    for (int x = 0; x < geom.cols; ++x) {
-      const cv::Point here(x, y);
-      for (const cv::Point& there : {cv::Point(x + 1, y), cv::Point(x, y + 1)}) {
-        if (there.x == geom.cols || there.y == geom.rows) continue;
-        if (geom(here) < 0 || geom(here) != geom(there)) continue;
-        const double unsure = rounding(even(here)) + rounding(even(there));
-        if (std::abs(share(here) - share(there)) > kShadowStep + unsure) {
-          edge(here) = edge(there) = 1;
-        }
-      }
-    }
-  }
-  return edge;
 }
 
 }  // namespace
 
 struct CameraRenderer::Impl {
   Model& model;
-  int width_px, height_px;
+  const View colour, truth;
+  const cv::Size buffer_px;
   GlContext gl;
   Drawables drawables;
   mjvScene& scene = drawables.scene();
   mjrContext context;
-  std::vector<unsigned char> rgb;
+  RoundCylinders cylinders;
+  std::array<mjvGLCamera, 2> eyes;  ///< of the model's camera, after an update
+  cv::Mat4w codes;
+  std::vector<unsigned char> ids;
   std::vector<float> z;
-  std::optional<Pinhole> view;
 
-  Impl(Model& model_, const GeomGroups& groups, int camera, int width_px_, int height_px_,
+  Impl(Model& model_, int camera, const View& colour_, const View& truth_, const GeomGroups& groups,
        bool has_shadows)
       : model(model_),
-        width_px(width_px_),
-        height_px(height_px_),
+        colour(colour_),
+        truth(truth_),
+        buffer_px(std::max(colour.pinhole.width_px, truth.pinhole.width_px),
+                  std::max(colour.pinhole.height_px, truth.pinhole.height_px)),
         drawables(model, groups, camera) {
-    prepare(model.m(), width_px, height_px, has_shadows);
+    prepare(model.m(), buffer_px, has_shadows);
     mjr_defaultContext(&context);
     try {
       start();
@@ -187,19 +134,58 @@ struct CameraRenderer::Impl {
     }
     if (problem.empty()) problem = take_warning();
     const mjrRect buffer = problem.empty() ? mjr_maxViewport(&context) : mjrRect{0, 0, 0, 0};
-    if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
-        buffer.height < height_px) {
+    if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < buffer_px.width ||
+        buffer.height < buffer_px.height) {
       const bool is_picture = problem.empty() || problem.find("ffscreen") != std::string::npos;
-      throw std::runtime_error(is_picture
-                                   ? fmt::format("software GL does not render images of {}x{} "
-                                                 "({}); choose a smaller camera size",
-                                                 width_px, height_px, problem)
-                                   : fmt::format("software GL does not take the scene ({}); choose "
-                                                 "fewer or smaller textures and meshes",
-                                                 problem));
+      throw std::runtime_error(
+          is_picture ? fmt::format("software GL does not render images of {}x{}, from samples of "
+                                   "{}x{} ({}); choose a smaller camera size, or fewer "
+                                   "image.samples",
+                                   truth.pinhole.width_px, truth.pinhole.height_px,
+                                   colour.pinhole.width_px, colour.pinhole.height_px, problem)
+                     : fmt::format("software GL does not take the scene ({}); choose fewer or "
+                                   "smaller textures and meshes",
+                                   problem));
     }
-    rgb.resize(std::size_t(width_px) * height_px * 3);
-    z.resize(std::size_t(width_px) * height_px);
+    const int stacks = has_only_directional_lights(model.m()) ? 1 : model.m().vis.quality.numstacks;
+    cylinders.compile(gl, stacks);
+    refine_codes();
+    set_clip_planes();
+    const Pinhole& p = truth.pinhole;
+    codes.create(colour.pinhole.height_px, colour.pinhole.width_px);
+    ids.resize(std::size_t(p.width_px) * std::size_t(p.height_px) * 3);
+    z.resize(std::size_t(p.width_px) * std::size_t(p.height_px));
+  }
+
+  /// Gives MuJoCo's colour buffer 16 bits: in the dark, a step of 8 bits is more light than an
+  /// event camera's threshold.
+  void refine_codes() {
+    gl.function<void(unsigned, unsigned)>("glBindRenderbuffer")(kRenderbuffer, context.offColor);
+    gl.function<void(unsigned, unsigned, int, int)>("glRenderbufferStorage")(
+        kRenderbuffer, kRgba16, buffer_px.width, buffer_px.height);
+  }
+
+  /// Sets planes that cut off what lies beside the used rays of the colour view.
+  void set_clip_planes() {
+    if (!colour.used) return;
+    // the camera's right and top, and the axis backwards, in the axes of the view
+    const double c = std::cos(colour.roll_rad), s = std::sin(colour.roll_rad);
+    const Eigen::Vector3d right(c, -s, 0), up(s, c, 0), back(0, 0, 1);
+    const Eigen::Vector2d low = colour.used->min(), high = colour.used->max();
+    const std::array<Eigen::Vector3d, kClipPlanes> inside{
+        right + low.x() * back, -right - high.x() * back, low.y() * back - up,
+        up - high.y() * back};
+    gl.function<void(unsigned)>("glMatrixMode")(kModelview);
+    gl.function<void()>("glLoadIdentity")();
+    for (unsigned i = 0; i < kClipPlanes; ++i) {
+      const Eigen::Vector4d plane(inside[i].x(), inside[i].y(), inside[i].z(), 0);
+      gl.function<void(unsigned, const double*)>("glClipPlane")(kFirstClipPlane + i, plane.data());
+    }
+  }
+
+  void enable_clip_planes(bool is_on) {
+    auto* const set = gl.function<void(unsigned)>(is_on ? "glEnable" : "glDisable");
+    for (unsigned i = 0; i < kClipPlanes; ++i) set(kFirstClipPlane + i);
   }
 
   void release() {
@@ -211,97 +197,99 @@ struct CameraRenderer::Impl {
     mjr_freeContext(&context);
   }
 
-  mjrRect viewport() const { return {0, 0, width_px, height_px}; }
+  /// Lets the scene be seen by a view.
+  void aim(const View& view) {
+    const Pinhole& p = view.pinhole;
+    const double c = std::cos(view.roll_rad), s = std::sin(view.roll_rad);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      mjvGLCamera& eye = scene.camera[i] = eyes[i];
+      const Eigen::Map<const Eigen::Vector3f> up(eyes[i].up), forward(eyes[i].forward);
+      const Eigen::Vector3d right = forward.cross(up).cast<double>();
+      Eigen::Map<Eigen::Vector3f>(eye.up) = (c * up.cast<double>() - s * right).cast<float>();
+      const double per_px = eye.frustum_near / p.focal_px;
+      const Eigen::Vector2d to_edge = p.centre_px.array() + 0.5;
+      eye.frustum_center = static_cast<float>(per_px * (p.width_px / 2.0 - to_edge.x()));
+      eye.frustum_width = static_cast<float>(per_px * p.width_px / 2.0);
+      eye.frustum_top = static_cast<float>(per_px * to_edge.y());
+      eye.frustum_bottom = static_cast<float>(per_px * (to_edge.y() - p.height_px));
+    }
+  }
 
-  void render(float* depth) {
+  /// \return the part of the buffer that shows the view.
+  mjrRect render(const View& view) {
+    aim(view);
+    const mjrRect part{0, 0, view.pinhole.width_px, view.pinhole.height_px};
     gl.make_current();
     call_mujoco([&] {
       mjr_setBuffer(mjFB_OFFSCREEN, &context);
-      mjr_render(viewport(), &scene, &context);
-      mjr_readPixels(rgb.data(), depth, viewport(), &context);
+      mjr_render(part, &scene, &context);
     });
+    return part;
   }
 
   // Read-back is bottom row first.
-  std::size_t row(int y) const { return std::size_t(height_px - 1 - y) * width_px; }
+  std::size_t row(int y) const {
+    return std::size_t(truth.pinhole.height_px - 1 - y) * std::size_t(truth.pinhole.width_px);
+  }
 
-  /// \param colour id colour by `mjRND_IDCOLOR`: index in the scene, from 1.
-  int geom_of(int colour) const {
-    const int index = colour - 1;
+  /// \param id_colour by `mjRND_IDCOLOR`: index in the scene, from 1.
+  int geom_of(int id_colour) const {
+    const int index = id_colour - 1;
     return index < 0 || index >= scene.ngeom ? -1 : scene.geoms[index].objid;
   }
 };
 
-CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px,
+CameraRenderer::CameraRenderer(Model& model, int camera, const View& colour, const View& truth,
                                const GeomGroups& groups, bool has_shadows) {
-  check_memory(model, groups, camera, width_px, height_px, has_shadows);
-  impl_ = std::make_unique<Impl>(model, groups, camera, width_px, height_px, has_shadows);
+  check_memory(model, camera, colour, truth, groups, has_shadows);
+  impl_ = std::make_unique<Impl>(model, camera, colour, truth, groups, has_shadows);
 }
 
 CameraRenderer::~CameraRenderer() = default;
 
-void CameraRenderer::set_view(const Pinhole& view) {
-  impl_->view = view;
-}
-
 void CameraRenderer::update() {
   Impl& s = *impl_;
   s.drawables.update(s.model);
-  if (!s.view) return;
-  const Pinhole& view = *s.view;
-  for (mjvGLCamera& camera : s.scene.camera) {
-    const double per_px = camera.frustum_near / view.focal_px;
-    const Eigen::Vector2d to_edge = view.centre_px.array() + 0.5;
-    camera.frustum_center = static_cast<float>(per_px * (view.width_px / 2.0 - to_edge.x()));
-    camera.frustum_top = static_cast<float>(per_px * to_edge.y());
-    camera.frustum_bottom = static_cast<float>(per_px * (to_edge.y() - view.height_px));
-  }
+  s.cylinders.replace(s.scene, s.context);
+  std::copy_n(s.scene.camera, s.eyes.size(), s.eyes.begin());
 }
 
-void CameraRenderer::render_colour(cv::Mat3b& bgr) {
+const cv::Mat4w& CameraRenderer::render_codes(bool has_shadows) {
   Impl& s = *impl_;
-  s.render(nullptr);
-  bgr.create(s.height_px, s.width_px);
-  for (int y = 0; y < s.height_px; ++y) {
-    const unsigned char* from = s.rgb.data() + 3 * s.row(y);
-    cv::Vec3b* to = bgr[y];
-    for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
-  }
-}
-
-void CameraRenderer::render_shaded(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& bgr,
-                                   cv::Mat1b& edge) {
-  impl_->scene.flags[mjRND_SHADOW] = 1;
-  render_colour(bgr);
-  impl_->scene.flags[mjRND_SHADOW] = 0;
-  take_speckles_away(even, geom, bgr);
-  edge = shadow_edges(even, geom, bgr);
-}
-
-void CameraRenderer::blur(const cv::Mat3b& sharp, cv::Mat3b& picture) {
-  cv::GaussianBlur(sharp, picture, {}, kLensBlur_px);
+  s.gl.make_current();
+  // the planes would cut the shadow maps, too
+  const bool is_clipped = s.colour.used && !has_shadows;
+  if (is_clipped) s.enable_clip_planes(true);
+  s.scene.flags[mjRND_SHADOW] = has_shadows;
+  const mjrRect part = s.render(s.colour);
+  s.scene.flags[mjRND_SHADOW] = 0;
+  if (is_clipped) s.enable_clip_planes(false);
+  s.gl.function<void(int, int, int, int, unsigned, unsigned, void*)>("glReadPixels")(
+      part.left, part.bottom, part.width, part.height, kRgba, kUnsignedShort, s.codes.data);
+  return s.codes;
 }
 
 void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {
   Impl& s = *impl_;
   s.scene.flags[mjRND_SEGMENT] = 1;
   s.scene.flags[mjRND_IDCOLOR] = 1;
-  s.render(s.z.data());
+  const mjrRect part = s.render(s.truth);
+  call_mujoco([&] { mjr_readPixels(s.ids.data(), s.z.data(), part, &s.context); });
   s.scene.flags[mjRND_SEGMENT] = 0;
   s.scene.flags[mjRND_IDCOLOR] = 0;
 
-  depth_m.create(s.height_px, s.width_px);
-  geom.create(s.height_px, s.width_px);
+  depth_m.create(part.height, part.width);
+  geom.create(part.height, part.width);
   const float n = s.scene.camera[0].frustum_near;
   const float f = s.scene.camera[0].frustum_far;
-  for (int y = 0; y < s.height_px; ++y) {
-    const unsigned char* id = s.rgb.data() + 3 * s.row(y);
+  for (int y = 0; y < part.height; ++y) {
+    const unsigned char* id = s.ids.data() + 3 * s.row(y);
     const float* z = s.z.data() + s.row(y);
     float* depth = depth_m[y];
     int* to = geom[y];
     // neighbouring pixels mostly show the same geom
     int colour = 0, shown = s.geom_of(colour);
-    for (int x = 0; x < s.width_px; ++x, id += 3) {
+    for (int x = 0; x < part.width; ++x, id += 3) {
       const int next = id[0] | id[1] << 8 | id[2] << 16;
       if (next != colour) shown = s.geom_of(colour = next);
       to[x] = shown;

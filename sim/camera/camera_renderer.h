@@ -1,10 +1,12 @@
 /// \file
-/// Renders colour, z-depth and geom ids from a camera of the model. Owns MuJoCo's renderer and the
-/// GL context; use it only from the thread that constructed it.
+/// Renders colour codes, z-depth and geom ids from a camera of the model. Owns MuJoCo's renderer
+/// and the GL context; use it only from the thread that constructed it.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 
 #include "sim/base/pose.h"
@@ -12,41 +14,40 @@
 
 namespace lcs::sim {
 
-/// Images are top row first. Reflections and the headlight's directional part are off, and shadows
-/// but in `render_shaded`: they move over surfaces, so that the true motion would be wrong for a
-/// corner on them.
+/// A pinhole on the axis of the model's camera, whose picture is turned about that axis.
+struct View {
+  Pinhole pinhole;
+  /// From the camera's right to the right of the view's picture, towards the camera's top.
+  double roll_rad = 0;
+  /// Least and most (x, y) of the rays (x, y, 1) in C that are used; others may stay undrawn.
+  std::optional<Eigen::AlignedBox2d> used;
+};
+
+/// Reflections, highlights and the headlight's directional part are off,
+/// and shadows unless asked for: they move over surfaces, so that the true motion would be wrong
+/// for a corner on them. Cylinders are drawn as prisms of 64 sides.
 class CameraRenderer {
  public:
   /// Writes buffer size, clipping planes and lights into the model.
   /// \param model must outlive the renderer; its textures must be complete: they are uploaded here.
+  /// \param colour view of the colour codes, \param truth view of depth and ids.
   /// \throws std::runtime_error if GL does not start or cannot render images of this size.
-  CameraRenderer(Model& model, int camera, int width_px, int height_px,
+  CameraRenderer(Model& model, int camera, const View& colour, const View& truth,
                  const GeomGroups& groups = kUsualGroups, bool has_shadows = false);
   ~CameraRenderer();
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
 
-  /// Sees by this pinhole from the next update on; before, by the field of view of the model's
-  /// camera, with the principal point in the middle.
-  /// \param view of the size of the renderer.
-  void set_view(const Pinhole& view);
-
   /// Takes the poses of the model's last forward pass for the following renders.
   void update();
 
-  /// The picture before the lens. Its pixels belong to the geoms of `render_depth_and_geoms`.
-  void render_colour(cv::Mat3b& bgr);
-  /// The same with the shadows of the lights that have `castshadow`, from shadow maps. Their texels
-  /// leave speckles on lit surfaces: a pixel takes the median share of light of the pixels of its
-  /// geom in the 5 x 5 round it. Shadows below 3 px in width are lost. \param even,geom of
-  /// `render_colour` and `render_depth_and_geoms`. \param edge receives 1 at the edges of shadows:
-  /// at neighbouring pixels of a geom that keep shares of their light that differ by more than 4 %,
-  /// beyond the rounding of both pictures to grey levels.
-  void render_shaded(const cv::Mat3b& even, const cv::Mat1i& geom, cv::Mat3b& bgr, cv::Mat1b& edge);
-  /// The picture behind the lens, whose point spread mixes neighbouring pixels.
-  static void blur(const cv::Mat3b& sharp, cv::Mat3b& picture);
+  /// sRGB codes of 16 bits of the colour view, its bottom row first: red, green, blue, and a value
+  /// without meaning. One sample in the middle of each pixel. Valid until the next render.
+  /// \param has_shadows draws the shadows of the lights that have `castshadow`, from shadow maps.
+  const cv::Mat4w& render_codes(bool has_shadows = false);
+  /// Of the truth view, its top row first, in the middle of each pixel.
   /// \param depth_m z-depth along the optical axis, m; +inf for the background.
-  /// \param geom geom id in the model, -1 for the background. Both without multisampling.
+  /// \param geom geom id in the model, -1 for the background.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
 
   double near_m() const;            ///< z of the near clipping plane

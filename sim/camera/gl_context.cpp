@@ -199,15 +199,14 @@ void GlContext::make_current() {
   library_->make_current();
 }
 
-void* GlContext::function(const char* name) const {
+void* GlContext::address(const char* name) const {
   void* found = library_->function(name);
   if (!found) fail(name);
   return found;
 }
 
 std::string GlContext::renderer() const {
-  using GetString = const unsigned char*(unsigned);
-  const auto get = reinterpret_cast<GetString*>(function("glGetString"));
+  auto* const get = function<const unsigned char*(unsigned)>("glGetString");
   const auto text = [&](unsigned name) {
     const unsigned char* value = get(name);
     return std::string(value ? reinterpret_cast<const char*>(value) : "");

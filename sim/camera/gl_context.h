@@ -28,8 +28,13 @@ class GlContext {
   /// For example "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6".
   std::string renderer() const;
 
-  /// A function of GL, to be cast to its type: glFinish. \throws std::runtime_error if missing.
-  void* function(const char* name) const;
+  /// A function of GL. \throws std::runtime_error if missing.
+  void* address(const char* name) const;
+  /// The same with its type: `function<void(unsigned)>("glEnable")`.
+  template <class Function>
+  Function* function(const char* name) const {
+    return reinterpret_cast<Function*>(address(name));
+  }
 
   class Library;  ///< of one kind of context
 

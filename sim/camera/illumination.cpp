@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace lcs::sim {
@@ -12,8 +13,9 @@ constexpr float kNearestLamp_m = 0.3F;
 /// Reflectance of dense fog.
 constexpr float kAirlight = 0.5F;
 constexpr double kKoschmieder = 3.912;  // -log(0.02)
-/// Equal to the renderer's blur, so that light edges at depth steps align with colour edges.
-constexpr double kEdgeBlur_px = 0.6;
+/// Standard deviation of a pixel's area along an axis: depth is of a pixel's middle, and lamps and
+/// air of an outline's pixel are a mean over its area, as its colour is.
+constexpr double kEdgeBlur_px = 1 / (2 * std::numbers::sqrt3);
 
 /// The slope at b: the smaller difference, as the other neighbour may be on another surface.
 float slope(float a, float b, float c) {

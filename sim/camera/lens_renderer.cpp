@@ -6,68 +6,79 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
+#include "sim/camera/linear_light.h"
+#include "sim/camera/shadows.h"
 #include "sim/truth/truth.h"
 
 namespace lcs::sim {
 namespace {
 
-constexpr int kSamples = 2;    // along each axis of a pixel
-constexpr int kMargin_px = 2;  // of the view, for interpolation
-constexpr int kMostSide_px = 8192;
+constexpr int kMargin_px = 2;          // of the lattice, for the neighbours of a lens's points
+constexpr int kMostSide_px = 1 << 14;  // of Mesa's pictures
 
-cv::Vec2f vec2f(const Eigen::Vector2d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y())};
-}
+/// From pixels to a lattice of a^2 + b^2 points per pixel.
+struct Lattice {
+  int a, b;
 
-/// A pinhole that sees every ray of the optics. \param rays of samples in its pixels
-Pinhole view_of(const Optics& optics, const cv::Mat2d& rays) {
-  const Lens& lens = optics.lens();
-  if (optics.is_pinhole()) {
-    return {lens.fu_px, {lens.cu_px, lens.cv_px}, lens.width_px, lens.height_px};
+  explicit Lattice(int samples) {
+    switch (samples) {
+      case 1:
+        a = 1, b = 0;
+        break;
+      case 4:
+        a = 2, b = 0;
+        break;
+      case 5:
+        a = 2, b = 1;
+        break;
+      case 9:
+        a = 3, b = 0;
+        break;
+      default:
+        throw std::invalid_argument(
+            fmt::format("{} samples of a pixel; 1, 4, 5 or 9 are possible", samples));
+    }
   }
-  double scale_px = 0;
+  int samples() const { return a * a + b * b; }
+  Eigen::Matrix2d from_px() const { return (Eigen::Matrix2d() << a, -b, b, a).finished(); }
+  double roll_rad() const { return std::atan2(b, a); }
+};
+
+/// Lattice points per pixel of the picture, along an axis, in a lattice of density 1 at the axis:
+/// the most that a lens's picture needs anywhere.
+double scale_px(const Optics& optics) {
+  const Lens& lens = optics.lens();
+  if (optics.is_pinhole()) return lens.fu_px;
+  double most_px = 0;
   for (int y = 0; y < lens.height_px; ++y) {
     for (int x = 0; x < lens.width_px; ++x) {
       const Eigen::Matrix2d J = optics.jacobian_px(optics.ray(x, y));
-      scale_px = std::max(scale_px, Eigen::JacobiSVD<Eigen::Matrix2d>(J).singularValues()[0]);
+      most_px = std::max(most_px, Eigen::JacobiSVD<Eigen::Matrix2d>(J).singularValues()[0]);
     }
   }
-  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array2d high = -low;
-  for (const cv::Vec2d& ray : rays) {
-    low = low.min(Eigen::Array2d(ray[0], ray[1]));
-    high = high.max(Eigen::Array2d(ray[0], ray[1]));
-  }
-  const double focal_px = LensRenderer::kDensity * scale_px;
-  const Eigen::Array2d size_px = (focal_px * (high - low)).ceil() + 2 * kMargin_px + 1;
-  if (!(size_px.maxCoeff() <= kMostSide_px)) {
-    throw input::Error(
-        lens.source,
-        "camera.distortion: the picture would be resampled from one of {:.0f} x {:.0f} pixels (at "
-        "most {} a side); make camera.size smaller, or the field of view",
-        size_px.x(), size_px.y(), kMostSide_px);
-  }
-  return {focal_px, (kMargin_px - focal_px * low).matrix(), static_cast<int>(size_px.x()),
-          static_cast<int>(size_px.y())};
+  return most_px;
 }
 
-/// The rays of kSamples x kSamples places in each pixel. \throws input::Error as `Optics`
-cv::Mat2d sample_rays(const Optics& optics) {
-  cv::Mat2d rays;
-  if (optics.is_pinhole()) return rays;
-  rays.create(optics.size_px() * kSamples);
-  for (int y = 0; y < rays.rows; ++y) {
-    for (int x = 0; x < rays.cols; ++x) {
-      const Eigen::Vector2d px((x + 0.5) / kSamples - 0.5, (y + 0.5) / kSamples - 0.5);
-      const Eigen::Vector3d ray = optics.back_project(px, 1);
-      // beside the outermost pixels there may be no ray
-      rays(y, x) = ray.allFinite() ? cv::Vec2d(ray.x(), ray.y()) : [&] {
-        const Eigen::Vector2d own = optics.ray(x / kSamples, y / kSamples);
-        return cv::Vec2d(own.x(), own.y());
-      }();
-    }
+/// The rays of all places in the picture; those of a border without rays are left out.
+Eigen::AlignedBox2d seen_rays(const Optics& optics) {
+  const cv::Size size_px = optics.size_px();
+  Eigen::AlignedBox2d rays;
+  const auto take = [&](double x, double y) {
+    const Eigen::Vector2d ray = optics.back_project({x, y}, 1).head<2>();
+    if (ray.allFinite()) rays.extend(ray);
+  };
+  for (int y = 0; y < size_px.height; ++y) {
+    for (int x = 0; x < size_px.width; ++x) rays.extend(optics.ray(x, y));
+  }
+  for (int x = 0; x <= size_px.width; ++x) {
+    for (const int y : {0, size_px.height}) take(x - 0.5, y - 0.5);
+  }
+  for (int y = 0; y <= size_px.height; ++y) {
+    for (const int x : {0, size_px.width}) take(x - 0.5, y - 0.5);
   }
   return rays;
 }
@@ -79,84 +90,137 @@ float slope_on_surface(float before, float here, float after) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
+/// What depth and ids are rendered by: a pinhole's own picture.
+View truth_view(const Optics& optics, const View& lattice) {
+  return optics.is_pinhole() ? View{optics.lens().pinhole(), 0, {}} : lattice;
+}
+
 }  // namespace
 
-LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-                           bool has_shadows)
-    : LensRenderer(model, camera, optics, groups, has_shadows, sample_rays(optics)) {}
-
-LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-                           bool has_shadows, const cv::Mat2d& rays)
-    : optics_(optics),
-      view_(view_of(optics, rays)),
-      renderer_(model, camera, view_.width_px, view_.height_px, groups, has_shadows) {
-  const Pinhole centred = Pinhole::from_fovy(view_.width_px, view_.height_px,
-                                             2 * std::atan(view_.height_px / 2.0 / view_.focal_px));
-  if (!optics.is_pinhole() || view_.centre_px != centred.centre_px) renderer_.set_view(view_);
-  if (optics.is_pinhole()) return;
-  const auto place = [&](const Eigen::Vector2d& ray) {
-    return vec2f(view_.project({ray.x(), ray.y(), 1}));
-  };
-  samples_.create(rays.size());
-  std::transform(rays.begin(), rays.end(), samples_.begin(), [&](const cv::Vec2d& ray) {
-    return place({ray[0], ray[1]});
-  });
-  centres_.create(optics.size_px());
-  for (int y = 0; y < centres_.rows; ++y) {
-    for (int x = 0; x < centres_.cols; ++x) centres_(y, x) = place(optics.ray(x, y));
+LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int samples) {
+  const Lattice lattice(samples);
+  const cv::Size size_px = optics.size_px();
+  const double density = scale_px(optics);
+  const double focal = std::sqrt(samples) * density;
+  const Eigen::Matrix2d to_lattice = density * lattice.from_px();
+  const Eigen::AlignedBox2d rays = seen_rays(optics);
+  Eigen::AlignedBox2d box;
+  for (int corner = 0; corner < 4; ++corner) {
+    box.extend(to_lattice * rays.corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner)));
   }
-}
+  // the axis is where a pinhole's pixel has a point in its middle, or four round it
+  const Eigen::Vector2d first = to_lattice * optics.back_project({0, 0}, 1).head<2>();
+  const double shift = samples % 2 == 0 ? 0.5 : 0;
+  const Eigen::Array2d low = box.min().array() - first.array() - shift;
+  const Eigen::Array2d centre = kMargin_px - low.floor() - first.array() - shift;
+  const Eigen::Array2i size = (box.max().array() + centre).ceil().cast<int>() + kMargin_px + 1;
+  if (size.maxCoeff() > kMostSide_px) {
+    throw input::Error(optics.lens().source,
+                       "camera.{}: the picture would be made of {} x {} samples (at most {} a "
+                       "side); make camera.size smaller{}",
+                       optics.is_pinhole() ? "size" : "distortion", size.x(), size.y(),
+                       kMostSide_px, optics.is_pinhole() ? "" : ", or the field of view");
+  }
+  Sampling sampling;
+  sampling.view.pinhole = {focal, centre.matrix(), size.x(), size.y()};
+  sampling.view.roll_rad = lattice.roll_rad();
+  // with a lattice point more on each side, where a cut edge may be out of place by rounding
+  sampling.view.used = {rays.min().array() - 1 / focal, rays.max().array() + 1 / focal};
 
-void LensRenderer::render_colour(cv::Mat3b& bgr) {
-  renderer_.render_colour(bgr);
-  resample(bgr);
-}
-
-void LensRenderer::render_shaded(cv::Mat3b& bgr, cv::Mat1i& edge) {
-  cv::Mat3b even;
-  cv::Mat1f depth_m;
-  cv::Mat1i geom;
-  cv::Mat1b sharp, wide;
-  renderer_.render_colour(even);
-  renderer_.render_depth_and_geoms(depth_m, geom);
-  renderer_.render_shaded(even, geom, bgr, sharp);
-  resample(bgr);
-  if (!centres_.empty()) {
-    // the view has two pixels and more for each one of the lens: none is left out between two
-    const cv::Mat1b in_view = sharp;
-    sharp = cv::Mat1b(bgr.size(), uchar{0});
-    for (int y = 0; y < in_view.rows; ++y) {
-      for (int x = 0; x < in_view.cols; ++x) {
-        if (!in_view(y, x)) continue;
-        const Eigen::Vector2d px = optics_.project(view_.back_project(Eigen::Vector2d(x, y), 1));
-        if (!px.allFinite()) continue;
-        const cv::Point there(cvRound(px.x()), cvRound(px.y()));
-        if (cv::Rect({}, sharp.size()).contains(there)) sharp(there) = 1;
-      }
+  // the pixel of each point; -1: beside the picture
+  const Eigen::Matrix2d to_ray = to_lattice.inverse();
+  cv::Mat1i pixel_of(size.y(), size.x(), -1);
+  std::vector<int>& ends = sampling.ends;
+  ends.assign(static_cast<std::size_t>(size_px.area()) + 1, 0);
+  for (int y = 0; y < size.y(); ++y) {
+    for (int x = 0; x < size.x(); ++x) {
+      const Eigen::Vector2d ray = to_ray * (Eigen::Array2d(x, y) - centre).matrix();
+      if (!sampling.view.used->contains(ray)) continue;
+      const Eigen::Vector2d px = optics.project(ray.homogeneous());
+      if (!px.allFinite()) continue;
+      const cv::Point pixel(cvRound(px.x()), cvRound(px.y()));
+      if (!cv::Rect({}, size_px).contains(pixel)) continue;
+      pixel_of(y, x) = pixel.y * size_px.width + pixel.x;
+      ++ends[static_cast<std::size_t>(pixel_of(y, x)) + 1];
     }
   }
-  constexpr int kSide_px = 2 * kShadowEdge_px + 1;
-  cv::dilate(sharp, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSide_px, kSide_px}));
-  wide.convertTo(edge, CV_32S);
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  sampling.points.resize(static_cast<std::size_t>(ends.back()));
+  std::vector<int> next(ends.begin(), ends.end() - 1);
+  for (int y = 0; y < size.y(); ++y) {
+    for (int x = 0; x < size.x(); ++x) {
+      if (pixel_of(y, x) < 0) continue;
+      const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(pixel_of(y, x))]++);
+      sampling.points[place] = (size.y() - 1 - y) * size.x() + x;  // rendered bottom row first
+    }
+  }
+  if (optics.is_pinhole()) return sampling;
+  sampling.middles.create(size_px);
+  for (int y = 0; y < size_px.height; ++y) {
+    for (int x = 0; x < size_px.width; ++x) {
+      const Eigen::Vector2f place = (to_lattice * optics.ray(x, y) + centre.matrix()).cast<float>();
+      sampling.middles(y, x) = {place.x(), place.y()};
+    }
+  }
+  return sampling;
 }
 
-void LensRenderer::resample(cv::Mat3b& bgr) const {
-  if (samples_.empty()) return;
-  cv::Mat3b samples;
-  cv::remap(bgr, samples, samples_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::resize(samples, bgr, centres_.size(), 0, 0, cv::INTER_AREA);
+LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, int samples,
+                           const GeomGroups& groups, bool has_shadows)
+    : LensRenderer(model, camera, optics, groups, has_shadows, sampling_of(optics, samples)) {}
+
+LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
+                           bool has_shadows, Sampling sampling)
+    : size_px_(optics.size_px()),
+      sampling_(std::move(sampling)),
+      renderer_(model, camera, sampling_.view, truth_view(optics, sampling_.view), groups,
+                has_shadows) {}
+
+void LensRenderer::mean_of_samples(const cv::Mat4w& codes, cv::Mat3f& light) const {
+  const float* const light_of = light_of_codes16().data();
+  const cv::Vec4w* const all = codes[0];
+  light.create(size_px_);
+  const int* point = sampling_.points.data();
+  const int* end = sampling_.ends.data();
+  for (cv::Vec3f& pixel : light) {
+    const int count = end[1] - end[0];
+    ++end;
+    float red = 0, green = 0, blue = 0;
+    for (int i = 0; i < count; ++i) {
+      const cv::Vec4w& code = all[*point++];
+      red += light_of[code[0]];
+      green += light_of[code[1]];
+      blue += light_of[code[2]];
+    }
+    const float share = 1 / static_cast<float>(count);
+    pixel = {share * blue, share * green, share * red};
+  }
+}
+
+void LensRenderer::render_light(cv::Mat3f& light) {
+  mean_of_samples(renderer_.render_codes(), light);
+}
+
+void LensRenderer::render_shaded(const cv::Mat3f& even, const cv::Mat1i& geom, cv::Mat3f& shaded,
+                                 cv::Mat1i& edge) {
+  mean_of_samples(renderer_.render_codes(true), shaded);
+  cv::Mat1b wide;
+  constexpr int kSide_px = 2 * kShadowEdge_px + 1;
+  cv::dilate(clean_shadows(even, geom, shaded), wide,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSide_px, kSide_px}));
+  wide.convertTo(edge, CV_32S);
 }
 
 void LensRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {
   renderer_.render_depth_and_geoms(depth_m, geom);
-  if (centres_.empty()) return;
+  if (sampling_.middles.empty()) return;
   const cv::Mat1f view_depth_m = depth_m;
   const cv::Mat1i view_geom = geom;
-  depth_m = cv::Mat1f(centres_.size());
-  geom = cv::Mat1i(centres_.size());
+  depth_m = cv::Mat1f(sampling_.middles.size());
+  geom = cv::Mat1i(sampling_.middles.size());
   for (int y = 0; y < geom.rows; ++y) {
     for (int x = 0; x < geom.cols; ++x) {
-      const cv::Point2f at = centres_(y, x);
+      const cv::Point2f at = sampling_.middles(y, x);
       const cv::Point nearest(cvRound(at.x), cvRound(at.y));
       const int id = geom(y, x) = view_geom(nearest);
       depth_m(y, x) = view_depth_m(nearest);

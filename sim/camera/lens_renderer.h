@@ -1,51 +1,69 @@
 /// \file
 /// Renders the picture of a camera with any optics, and its depth and geom ids.
+///
+/// A pixel is the mean of the light that falls on it, by `samples` of it: 1, 4, 5 or 9. They are
+/// the points of a square lattice, rendered as the pixels of one large picture. The lattice of 5 is
+/// turned by atan(1/2) against the pixels, so that the samples of a pixel have five places along
+/// its rows and five along its columns, a fifth of a pixel apart:
+///
+///       .  x  .  .  .
+///       .  .  .  .  x          pixel (x, y) has the lattice points
+///       .  .  x  .  .            (2x - y, x + 2y) + {(0, 0), (+-1, 0), (0, +-1)}
+///       x  .  .  .  .
+///       .  .  .  x  .
+///
+/// An upright or level edge is then in place to a fifth of a pixel; with 4 or 9 samples, whose
+/// lattice is not turned, to a half or a third.
 #pragma once
+
+#include <vector>
 
 #include "sim/base/optics.h"
 #include "sim/camera/camera_renderer.h"
 
 namespace lcs::sim {
 
-/// A pinhole is rendered as it is, whatever its principal point. A lens is resampled from a pinhole
-/// on the same axis that sees all of its field of view, with at least `kDensity` pixels to each
-/// pixel of the lens, in both directions:
-///
-/// * colour: the mean of 2 x 2 samples in each pixel, each linear between its four neighbours. That
-///   spreads a point by less than 0.4 px (standard deviation), beside the 0.6 px of `blur`;
-/// * geom: from the pinhole's pixel nearest to the ray, which is at most 1 / (2 kDensity) of a
-///   pixel of the lens away along each axis;
-/// * depth: of that pixel, continued to the ray along the surface. Exact on planes.
+/// * light: the mean of the lattice points that lie in the pixel. A lens's picture is made from a
+///   pinhole's lattice on the same axis that sees all of its field of view, as dense as a pinhole's
+///   in the part of the picture that needs most, and denser elsewhere;
+/// * depth and geom, in the middle of each pixel: of a pinhole, rendered there. Of a lens: the geom
+///   of the nearest point, at most .71 / sqrt(samples) of a pixel away, and the depth of that point
+///   continued to the ray along the surface, which is exact on planes.
 class LensRenderer {
  public:
-  static constexpr double kDensity = 2;
-
   /// \param camera of the model; \param optics of its picture. As `CameraRenderer`.
-  /// \throws input::Error if the pinhole would be too large.
-  LensRenderer(Model& model, int camera, const Optics& optics,
+  /// \param samples of each pixel: 1, 4, 5 or 9. \throws std::invalid_argument for others
+  /// \throws input::Error if the lattice would be too large.
+  LensRenderer(Model& model, int camera, const Optics& optics, int samples = 5,
                const GeomGroups& groups = kUsualGroups, bool has_shadows = false);
 
-  /// The picture with shadows, and 1 within `kShadowEdge_px` of their edges.
-  void render_shaded(cv::Mat3b& bgr, cv::Mat1i& edge);
-
-  /// \name As in `CameraRenderer`.
-  ///@{
   void update() { renderer_.update(); }
-  void render_colour(cv::Mat3b& bgr);
+  /// The mean of each pixel's samples in linear light, BGR, before lens blur, lamps and sensor.
+  void render_light(cv::Mat3f& light);
+  /// The same with the shadows of lights that have `castshadow`. \param even, geom without them, by
+  /// the other functions. \param edge receives 1 within `kShadowEdge_px` of the edges of shadows.
+  void render_shaded(const cv::Mat3f& even, const cv::Mat1i& geom, cv::Mat3f& shaded,
+                     cv::Mat1i& edge);
+  /// As `CameraRenderer`, for each pixel of the picture.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
   double near_m() const { return renderer_.near_m(); }
   std::string gl_renderer() const { return renderer_.gl_renderer(); }
-  ///@}
 
  private:
+  /// The lattice, and each pixel's points in it.
+  struct Sampling {
+    View view;
+    /// Indices in the rendered codes, pixel by pixel; those of pixel i are before the i + 1st end.
+    std::vector<int> points, ends;
+    cv::Mat2f middles;  ///< place in the view of each pixel's middle; empty for a pinhole
+  };
+  static Sampling sampling_of(const Optics& optics, int samples);
   LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-               bool has_shadows, const cv::Mat2d& rays);
-  void resample(cv::Mat3b& bgr) const;
+               bool has_shadows, Sampling sampling);
+  void mean_of_samples(const cv::Mat4w& codes, cv::Mat3f& light) const;
 
-  Optics optics_;
-  Pinhole view_;       ///< rendered
-  cv::Mat2f centres_;  ///< place in the view of each pixel; empty if the view is the picture
-  cv::Mat2f samples_;  ///< likewise of 2 x 2 samples in each pixel
+  cv::Size size_px_;
+  Sampling sampling_;
   CameraRenderer renderer_;
 };
 

@@ -12,8 +12,8 @@ constexpr int kCodes = 256;
 /// Fine enough for the steepest part of the curve, where a code is 3e-4 wide.
 constexpr int kBins = 1 << 14;
 
-float linear_of(int code) {
-  const double v = code / 255.0;
+/// \param v the code over the largest code
+float linear_of(double v) {
   return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }
 
@@ -22,7 +22,7 @@ struct Curve {
   std::vector<std::uint8_t> code;  ///< nearest to the middle of each bin of [0, 1]
 
   Curve() : code(kBins + 1) {
-    for (int c = 0; c < kCodes; ++c) linear(c) = linear_of(c);
+    for (int c = 0; c < kCodes; ++c) linear(c) = linear_of(c / 255.0);
     int nearest = 0;
     for (int bin = 0; bin <= kBins; ++bin) {
       const float value = static_cast<float>(bin) / kBins;
@@ -41,6 +41,16 @@ const Curve& curve() {
 }
 
 }  // namespace
+
+const std::vector<float>& light_of_codes16() {
+  static const std::vector<float> light = [] {
+    constexpr int kCodes16 = 1 << 16;
+    std::vector<float> of_code;
+    for (int c = 0; c < kCodes16; ++c) of_code.push_back(linear_of(c / (kCodes16 - 1.0)));
+    return of_code;
+  }();
+  return light;
+}
 
 cv::Mat3f to_linear(const cv::Mat3b& picture) {
   cv::Mat3f linear;

@@ -4,7 +4,9 @@
 /// 61966-2-1).
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace lcs::sim {
 
@@ -12,5 +14,8 @@ cv::Mat3f to_linear(const cv::Mat3b& picture);
 
 /// The inverse of `to_linear`, exact for each code. Clips values to [0, 1].
 void to_codes(const cv::Mat3f& linear, cv::Mat3b& picture);
+
+/// Linear light of each code of 16 bits; those of 8 bits are multiples of 257.
+const std::vector<float>& light_of_codes16();
 
 }  // namespace lcs::sim

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "sim/base/random.h"
 #include "sim/camera/linear_light.h"
+#include "sim/camera/point_spread.h"
 #include "sim/pictures/picture_file.h"
 
 namespace lcs::sim {
@@ -32,7 +32,7 @@ cv::Mat3f falloff_of(double loss, const Lens& lens) {
 
 Photographer::Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
                            std::uint64_t scenario_seed)
-    : blur_px_(image.blur_px),
+    : spread_px_(std::hypot(image.point_spread_px, image.blur_px)),
       jpeg_quality_(image.jpeg_quality),
       rate_hz_(rate_hz),
       illumination_(image, camera),
@@ -43,12 +43,12 @@ Photographer::Photographer(const scenario::Image& image, const Optics& camera, d
 }
 
 void Photographer::pass_lens(cv::Mat3f& light) const {
-  if (blur_px_ > 0) cv::GaussianBlur(light, light, {}, blur_px_);
+  spread_points(light, spread_px_);
   if (!falloff_.empty()) cv::multiply(light, falloff_, light);
 }
 
-cv::Mat1f Photographer::light(const cv::Mat3b& picture, const cv::Mat1f& depth_m) const {
-  cv::Mat3f light = to_linear(picture);
+cv::Mat1f Photographer::light(const cv::Mat3f& rendered, const cv::Mat1f& depth_m) const {
+  cv::Mat3f light = rendered.clone();
   light += cv::Scalar::all(kReflectance);
   illumination_.light(light, depth_m);
   pass_lens(light);
@@ -57,9 +57,9 @@ cv::Mat1f Photographer::light(const cv::Mat3b& picture, const cv::Mat1f& depth_m
   return luminance;
 }
 
-Exposure Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {
+Exposure Photographer::develop(cv::Mat3f light, const cv::Mat1f& depth_m, int k,
+                               cv::Mat3b& picture) {
   const Exposure exposure = control_.next();
-  cv::Mat3f light = to_linear(picture);
   illumination_.light(light, depth_m);
   if (rain_) {
     rain_->add_streaks(light, depth_m, illumination_, exposure.time_s, k);
@@ -103,11 +103,10 @@ ImageSensor::ImageSensor(const scenario::Image& image, std::uint64_t scenario_se
 void ImageSensor::expose(cv::Mat3f& picture, const Exposure& exposure, int k) const {
   const auto light = static_cast<float>(exposure.time_s / scenario::Image::kDaylightExposure_s);
   const auto gain = static_cast<float>(exposure.gain);
-  for (cv::Vec3f& pixel : picture) pixel *= light;
+  picture *= light;
   if (noise_) add_noise(picture, k);
-  for (cv::Vec3f& pixel : picture) {
-    for (int c = 0; c < 3; ++c) pixel[c] = gain * std::min(pixel[c], 1.F);
-  }
+  cv::min(picture.reshape(1), 1, picture.reshape(1));
+  picture *= gain;
 }
 
 void ImageSensor::add_noise(cv::Mat3f& picture, int k) const {
@@ -115,12 +114,17 @@ void ImageSensor::add_noise(cv::Mat3f& picture, int k) const {
   const auto full_well = static_cast<float>(noise_->full_well_e);
   const auto read_variance =
       static_cast<float>(noise_->read_e * noise_->read_e) / (full_well * full_well);
-  for (cv::Vec3f& pixel : picture) {
-    const std::uint64_t bits = random.bits();
-    for (int c = 0; c < 3; ++c) {
-      const float normal = normals_[(bits >> (16 * c)) & (kNormals - 1)];
-      pixel[c] += std::sqrt(pixel[c] / full_well + read_variance) * normal;
+  cv::Mat1f deviation(1, 3 * picture.cols), normal(1, 3 * picture.cols);
+  for (int y = 0; y < picture.rows; ++y) {
+    float* drawn = normal[0];
+    for (int x = 0; x < picture.cols; ++x) {
+      const std::uint64_t bits = random.bits();
+      for (int c = 0; c < 3; ++c) *drawn++ = normals_[(bits >> (16 * c)) & (kNormals - 1)];
     }
+    float* const values = picture[y]->val;
+    for (int i = 0; i < normal.cols; ++i) deviation(i) = values[i] / full_well + read_variance;
+    cv::sqrt(deviation, deviation);
+    for (int i = 0; i < normal.cols; ++i) values[i] += deviation(i) * normal(i);
   }
 }
 

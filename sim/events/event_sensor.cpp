@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace lcs::sim {
 namespace {
@@ -27,11 +28,11 @@ EventSensor::EventSensor(const scenario::Events& events, cv::Size size, std::uin
   for (int i = 0; i < size.area(); ++i) {
     const float on = draw(events.positive), off = draw(events.negative);
     const float above = events.leak_hz > 0 ? on * static_cast<float>(phases.uniform()) : 0.F;
-    pixels_.push_back({0, above, on, off, 0});
+    pixels_.push_back({.start = -above, .seen = 0, .on = on, .off = off});
   }
 }
 
-void EventSensor::see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events) {
+void EventSensor::sample(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events) {
   if (light.size() != size_) throw std::invalid_argument("a picture of another size than events");
   if (has_seen_ && t_ns <= last_ns_) {
     throw std::invalid_argument("a picture that is not later than the one before it");
@@ -42,28 +43,30 @@ void EventSensor::see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Eve
   if (!has_seen_) {
     std::transform(log_.begin(), log_.end(), pixels_.begin(), pixels_.begin(),
                    [](float l, Pixel pixel) {
+                     pixel.start += l;
                      pixel.seen = l;
                      return pixel;
                    });
     has_seen_ = true;
-    last_ns_ = t_ns;
+    first_ns_ = last_ns_ = t_ns;
     return;
   }
   const std::size_t first = events.size();
   const std::int64_t span_ns = t_ns - last_ns_;
-  const auto leaks = static_cast<float>(parameters_.leak_hz * 1e-9 * static_cast<double>(span_ns));
+  const auto leaks_until = [&](std::int64_t then_ns) {
+    return parameters_.leak_hz * 1e-9 * static_cast<double>(then_ns - first_ns_);
+  };
+  const double leaks_before = leaks_until(last_ns_), leaks_after = leaks_until(t_ns);
   Pixel* pixel = pixels_.data();
   for (int y = 0; y < size_.height; ++y) {
     const float* l = log_[y];
     for (int x = 0; x < size_.width; ++x, ++pixel) {
-      const float rise = l[x] - pixel->seen + leaks * pixel->on;
-      const float above = pixel->above + rise;
-      pixel->seen = l[x];
-      if (above < pixel->on && above > -pixel->off) {
-        pixel->above = above;
-      } else {
-        cross(x, y, rise, last_ns_, span_ns, events);
-      }
+      const float seen = std::exchange(pixel->seen, l[x]);
+      const double after = pixel->above(leaks_after);
+      if (after < pixel->on && after > -pixel->off) continue;
+      const double rise =
+          static_cast<double>(l[x]) - seen + (leaks_after - leaks_before) * pixel->on;
+      cross(x, y, after - rise, after, t_ns, events);
     }
   }
   add_shots(light, last_ns_, span_ns, events);
@@ -74,25 +77,26 @@ void EventSensor::see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Eve
   last_ns_ = t_ns;
 }
 
-/// The levels that a pixel crosses between two pictures. \param rise of l above the reference,
-/// beyond the contrast.
-void EventSensor::cross(int x, int y, float rise, std::int64_t begin_ns, std::int64_t span_ns,
+/// The levels that a pixel crosses from the last picture to this one at `t_ns`. \param before,
+/// after l less the reference, at both; `after` is beyond the contrast.
+void EventSensor::cross(int x, int y, double before, double after, std::int64_t t_ns,
                         std::vector<Event>& events) {
   Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
                          static_cast<std::size_t>(x)];
-  const bool is_on = rise > 0;
-  const float contrast = is_on ? pixel.on : -pixel.off;
-  const float end = pixel.above + rise;
-  float level = contrast;
-  for (; is_on ? level <= end : level >= end; level += contrast) {
-    const double share = std::clamp((level - pixel.above) / rise, 0.F, 1.F);
-    const std::int64_t t_ns =
-        begin_ns + std::max<std::int64_t>(1, std::llround(share * static_cast<double>(span_ns)));
-    if (t_ns < pixel.free_ns) continue;
-    events.push_back({t_ns, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_on});
-    pixel.free_ns = t_ns + refractory_ns_;
+  const bool is_on = after > 0;
+  const double contrast = is_on ? pixel.on : -pixel.off;
+  const std::int64_t span_ns = t_ns - last_ns_;
+  int levels = 0;
+  while (is_on ? (levels + 1) * contrast <= after : (levels + 1) * contrast >= after) {
+    ++levels;
+    const double share = std::clamp((levels * contrast - before) / (after - before), 0.0, 1.0);
+    const std::int64_t at_ns =
+        last_ns_ + std::max<std::int64_t>(1, std::llround(share * static_cast<double>(span_ns)));
+    if (at_ns < pixel.free_ns) continue;
+    events.push_back({at_ns, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_on});
+    pixel.free_ns = at_ns + refractory_ns_;
   }
-  pixel.above = end - (level - contrast);
+  (is_on ? pixel.ons : pixel.offs) += levels;
 }
 
 /// A Poisson process of all pixels together, at the rate of the dark, of which brighter pixels

@@ -48,16 +48,24 @@ class EventSensor {
   /// \param light in daylights, >= 0; of the sensor's size.
   /// \param t_ns later than the picture before.
   /// \throws std::invalid_argument for another size or time.
-  void see(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events);
+  void sample(const cv::Mat1f& light, std::int64_t t_ns, std::vector<Event>& events);
 
  private:
+  /// The reference is `start` + `ons` * `on` - `offs` * `off` - the leak: counts, so that light
+  /// that returns to a level crosses as many references up as it has crossed down.
   struct Pixel {
-    float seen;   ///< l of the last picture
-    float above;  ///< l less the reference, at that time
+    float start, seen;  ///< first reference; l of the last picture
     float on, off;
-    std::int64_t free_ns;  ///< the end of the refractory time
+    int ons = 0, offs = 0;
+    std::int64_t free_ns = 0;  ///< the end of the refractory time
+
+    /// l of the last picture less the reference, after `leaks` events by leak alone.
+    double above(double leaks) const {
+      return static_cast<double>(seen) - start -
+             (ons * static_cast<double>(on) - offs * static_cast<double>(off)) + leaks * on;
+    }
   };
-  void cross(int x, int y, float rise, std::int64_t begin_ns, std::int64_t span_ns,
+  void cross(int x, int y, double before, double after, std::int64_t t_ns,
              std::vector<Event>& events);
   void add_shots(const cv::Mat1f& light, std::int64_t begin_ns, std::int64_t span_ns,
                  std::vector<Event>& events);
@@ -68,7 +76,7 @@ class EventSensor {
   std::vector<Pixel> pixels_;  ///< row by row
   cv::Size size_;
   cv::Mat1f log_;
-  std::int64_t last_ns_ = 0;
+  std::int64_t first_ns_ = 0, last_ns_ = 0;  ///< of the pictures
   bool has_seen_ = false;
 };
 

@@ -20,7 +20,8 @@ namespace lcs::sim {
 ///     accel_k = R_m^T ((v_k - v_{k-1}) / dt + g z),   R_m = R_{k-1} Exp(gyro_k dt / 2)
 ///
 /// plus noise, so that integration over (t_{k-1}, t_k] by the mid attitude is exact. The first
-/// reading, at 0, is of that instant. At rest the accelerometer reads +9.81 m/s^2 upwards.
+/// reading, at 0, is of that instant. With `imu.reading: sample` all are of their instants: body
+/// rate and specific force R_k^T (a_k + g z). At rest the accelerometer reads +9.81 m/s^2 upwards.
 struct ImuSample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d gyro_radps = Eigen::Vector3d::Zero();

@@ -25,11 +25,17 @@ Eigen::Vector3d normal3(RandomStream& stream) {
   return v;
 }
 
+/// \return the value as a converter gives it: a multiple of the resolution within the range.
 Eigen::Vector3d read_out(Eigen::Vector3d value, const std::optional<double>& range,
                          const std::optional<double>& resolution) {
-  if (range) value = value.cwiseMax(-*range).cwiseMin(*range);
-  if (resolution) value = *resolution * (value / *resolution).array().round();
-  return value;
+  if (!resolution) return range ? value.cwiseMax(-*range).cwiseMin(*range).eval() : value;
+  Eigen::Array3d steps = (value / *resolution).array().round();
+  if (range) {
+    constexpr double kRounding = 1e-9;  // of a range that is a multiple of the resolution
+    const double most = std::floor(*range / *resolution + kRounding);
+    steps = steps.max(-most).min(most);
+  }
+  return *resolution * steps.matrix();
 }
 
 }  // namespace

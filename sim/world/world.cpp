@@ -505,7 +505,8 @@ ImuSample World::ideal_reading() {
   ImuSample reading{t_ns_};
   const Pose T_WS = this->T_WS();
   const Eigen::Vector3d v_WS_mps = this->v_WS_mps();
-  if (imu_truth_.t_ns < t_ns_) {
+  const bool is_mean = scenario_.imu.reading == scenario::ImuReading::mean;
+  if (is_mean && imu_truth_.t_ns < t_ns_) {
     const double span_s = 1e-9 * static_cast<double>(t_ns_ - imu_truth_.t_ns);
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(imu_truth_.T_WS.R.transpose() * T_WS.R));
     const Eigen::Matrix3d R_middle =

@@ -181,8 +181,8 @@ std::string PageReporter::simulation_table(const std::string& scene) const {
 std::string PageReporter::settings_table(const std::string& scene) const {
   std::string table =
       "<table><tr><th><th colspan=3>by the wall clock<th colspan=2>time of all cores</tr>\n"
-      "<tr><th>renders of a frame of 640x480<th>ms<th>frames/s<th>over the project's<th>ms"
-      "<th>over the project's</tr>\n";
+      "<tr><th>renders of a frame of 640x480<th>ms<th>frames/s<th>over the first row's<th>ms"
+      "<th>over the first row's</tr>\n";
   const std::string project = "settings/" + scene + "/" + kRenderSettings[0].name;
   for (const NamedRenderSettings& named : kRenderSettings) {
     const std::string name = "settings/" + scene + "/" + named.name;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/camera/camera_renderer.h"
 #include "sim/camera/gl_context.h"
+#include "sim/camera/lens_renderer.h"
 #include "sim/scene/mujoco.h"
 
 namespace lcs::test {
@@ -18,8 +18,8 @@ constexpr int kSpareGeoms = 64;           // for geoms that the model does not c
 /// Applies all that the project's renderer writes into a model, and then the settings.
 void prepare(sim::World& world, const cv::Size& size_px, const RenderSettings& settings) {
   mjModel& m = world.model().m();
-  const sim::CameraRenderer prepares(world.model(), world.camera_id(), size_px.width,
-                                     size_px.height);
+  const sim::LensRenderer prepares(world.model(), world.camera_id(),
+                                   sim::Pinhole::from_fovy(size_px.width, size_px.height, 1), 1);
   m.vis.quality.offsamples = settings.samples;
   if (settings.shadows) {
     m.vis.quality.shadowsize = kDefaultShadowSize;
@@ -78,7 +78,7 @@ struct RawRenderer::Impl {
     if (settings.read_back) {
       mjr_readPixels(rgb, z, viewport, &context);
     } else {
-      reinterpret_cast<void (*)()>(gl.function("glFinish"))();
+      gl.function<void()>("glFinish")();
     }
   }
 

@@ -1,6 +1,5 @@
 /// \file
-/// Renders like `sim::CameraRenderer`, by the same calls of MuJoCo but with selectable settings. It
-/// measures the saving by each of the project's choices.
+/// Renders by MuJoCo alone, one sample in the middle of each pixel, with selectable settings.
 #pragma once
 
 #include <memory>
@@ -17,7 +16,6 @@ enum class TruthRenders {
   apart,     ///< one render for each
 };
 
-/// The defaults are the project's.
 struct RenderSettings {
   int samples = 0;       ///< per pixel
   bool shadows = false;  ///< of all lights, with MuJoCo's default resolution
@@ -34,7 +32,7 @@ struct NamedRenderSettings {
 };
 
 inline constexpr NamedRenderSettings kRenderSettings[] = {
-    {"project", "as the project renders: colour, then depth and ids at once", {}},
+    {"plain", "colour, then depth and ids at once", {}},
     {"no_read_back", "nothing is read back", {.read_back = false}},
     {"colour_only", "neither depth nor ids", {.truth = TruthRenders::none}},
     {"truth_apart", "depth and ids from a render each", {.truth = TruthRenders::apart}},
@@ -55,10 +53,9 @@ class RawRenderer {
   RawRenderer(const RawRenderer&) = delete;
   RawRenderer& operator=(const RawRenderer&) = delete;
 
-  /// Renders one frame, with all steps of `sim::CameraRenderer::update`.
   void render();
 
-  /// The colour of the last frame before the lens blur, as `sim::CameraRenderer` renders it.
+  /// The colour codes of the last frame.
   cv::Mat3b picture() const;
 
  private:

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenarios/scenes.h"
-#include "sim/camera/camera_renderer.h"
+#include "sim/camera/lens_renderer.h"
 #include "sim/world/world.h"
 #include "tests/fuzz/input.h"
 
@@ -59,12 +59,13 @@ void drive(const scenario::Scenario& s, bool looks) {
   std::vector<sim::ImuSample> imu;
   std::vector<sim::OdometrySample> odometry;
   if (looks) {
-    sim::CameraRenderer renderer(world.model(), world.camera_id(), 64, 48);
-    cv::Mat3b picture;
+    sim::LensRenderer renderer(world.model(), world.camera_id(),
+                               sim::Pinhole::from_fovy(64, 48, 1));
+    cv::Mat3f light;
     cv::Mat1f depth;
     cv::Mat1i geoms;
     renderer.update();
-    renderer.render_colour(picture);
+    renderer.render_light(light);
     renderer.render_depth_and_geoms(depth, geoms);
   }
   world.advance_to(50'000'000, imu, odometry);

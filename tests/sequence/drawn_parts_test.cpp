@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "sim/camera/linear_light.h"
 #include "sim/simulation.h"
 #include "sim/world/world.h"
 #include "tests/benchmark/raw_renderer.h"
@@ -58,8 +59,8 @@ scenario::Actor moved_body(const std::string& body) {
   return actor;
 }
 
-/// The picture that MuJoCo draws by default at a frame.
-cv::Mat3b drawn_by_default(const scenario::Scenario& scenario, int frame) {
+/// The light of the picture that MuJoCo draws by default at a frame.
+cv::Mat3f drawn_by_default(const scenario::Scenario& scenario, int frame) {
   sim::World world(scenario);
   std::vector<sim::ImuSample> imu;
   std::vector<sim::OdometrySample> odometry;
@@ -68,7 +69,7 @@ cv::Mat3b drawn_by_default(const scenario::Scenario& scenario, int frame) {
   mj_forward(&world.model().m(), &world.model().d());
   test::RawRenderer renderer(world, {scenario.camera.width_px, scenario.camera.height_px}, {});
   renderer.render();
-  return renderer.picture();
+  return sim::to_linear(renderer.picture());
 }
 
 /// Runs the check on two frames of a scenario: as they are, and as MuJoCo draws them by default.

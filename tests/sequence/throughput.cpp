@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "scenarios/load.h"
-#include "sim/camera/camera_renderer.h"
+#include "sim/camera/lens_renderer.h"
 #include "sim/world/world.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/sequence/generator.h"
@@ -30,9 +30,11 @@ double processor_s() {
 
 double bare_loop_s(const scenario::Scenario& scenario) {
   sim::World world(scenario);
-  sim::CameraRenderer renderer(world.model(), world.camera_id(), scenario.camera.width_px,
-                               scenario.camera.height_px);
-  cv::Mat3b image;
+  const scenario::Camera& camera = scenario.camera;
+  sim::LensRenderer renderer(
+      world.model(), world.camera_id(),
+      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
+  cv::Mat3f light;
   cv::Mat1f depth;
   cv::Mat1i geoms;
   std::vector<sim::ImuSample> imu;
@@ -41,7 +43,7 @@ double bare_loop_s(const scenario::Scenario& scenario) {
   for (int k = 0; k < scenario.frames; ++k) {
     world.advance_to(sim::event_time_ns(k, scenario.camera.rate_hz), imu, odometry);
     renderer.update();
-    renderer.render_colour(image);
+    renderer.render_light(light);
     renderer.render_depth_and_geoms(depth, geoms);
   }
   return processor_s() - start;

@@ -66,16 +66,16 @@ Range corner_counts(const scenario::Scenario& s) {
   return range;
 }
 
-TEST(Corners, OfTheSlowRunThroughTheLabAre250To450) {
+TEST(Corners, OfTheSlowRunThroughTheLabAre250To550) {
   const Range range = corner_counts(slow_lab());
   EXPECT_GE(range.least, 250u);
-  EXPECT_LE(range.most, 450u);
+  EXPECT_LE(range.most, 550u);
 }
 
-TEST(Corners, OfTheFastRunThroughTheLabAre250To450) {
+TEST(Corners, OfTheFastRunThroughTheLabAre250To550) {
   const Range range = corner_counts(fast_lab());
   EXPECT_GE(range.least, 250u);
-  EXPECT_LE(range.most, 450u);
+  EXPECT_LE(range.most, 550u);
 }
 
 TEST(Corners, OfTheStreetAreOver700) {

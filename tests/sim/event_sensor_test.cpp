@@ -37,7 +37,7 @@ std::vector<Event> seen(EventSensor& sensor, cv::Size size, double rate_hz, int 
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) light(y, x) = static_cast<float>(light_of(x, y, t_s));
     }
-    sensor.see(light, std::llround(1e9 * t_s), events);
+    sensor.sample(light, std::llround(1e9 * t_s), events);
   }
   return events;
 }
@@ -68,6 +68,27 @@ TEST(Events, AreOfTheRateOfAMovingEdge) {
     // while the edge is in the pixel: its light is interpolated over one picture more at most
     const double edge_px = 5.5 + speed_pxps * 1e-9 * static_cast<double>(event.t_ns);
     EXPECT_LE(std::abs(edge_px - event.x), 0.5 + 0.4) << event.x;
+  }
+}
+
+/// Light that falls and comes back to its level crosses as many levels up as down, also where the
+/// last one is a tie.
+TEST(Events, AreAsManyUpAsDownWhenLightComesBack) {
+  for (const double contrast : {0.1, 0.2, 0.35, 0.4}) {
+    scenario::Events parameters = ideal();
+    parameters.positive = parameters.negative = contrast;
+    EventSensor sensor(parameters, {1, 1}, 1);
+    std::map<bool, int> count;
+    const double dips = 7;
+    for (const Event& event : seen(sensor, {1, 1}, 100, 100, [&](int, int, double t_s) {
+           const double share =
+               std::abs(std::remainder(dips * t_s, 1.0)) * 2;  // 0 at 0, s / dips ...
+           return kBright * std::exp(-3 * (t_s < 1 ? share : 0));
+         })) {
+      ++count[event.is_on];
+    }
+    EXPECT_GT(count[false], dips * std::floor(2.5 / contrast));
+    EXPECT_EQ(count[true], count[false]) << contrast;
   }
 }
 
@@ -214,9 +235,9 @@ TEST(Events, AreTheSameBitsForASeedAndInOrder) {
 TEST(Events, RefusePicturesOfAnotherSizeOrOutOfOrder) {
   EventSensor sensor(ideal(), {4, 3}, 1);
   std::vector<Event> events;
-  sensor.see(cv::Mat1f(3, 4, 0.5F), 10, events);
-  EXPECT_THROW(sensor.see(cv::Mat1f(3, 4, 0.5F), 10, events), std::invalid_argument);
-  EXPECT_THROW(sensor.see(cv::Mat1f(4, 3, 0.5F), 20, events), std::invalid_argument);
+  sensor.sample(cv::Mat1f(3, 4, 0.5F), 10, events);
+  EXPECT_THROW(sensor.sample(cv::Mat1f(3, 4, 0.5F), 10, events), std::invalid_argument);
+  EXPECT_THROW(sensor.sample(cv::Mat1f(4, 3, 0.5F), 20, events), std::invalid_argument);
 }
 
 }  // namespace

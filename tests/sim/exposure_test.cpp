@@ -46,8 +46,7 @@ struct EvenView {
       : photographer(image, Pinhole::from_fovy(320, 240, 1), kRate_hz, 1) {}
 
   Exposure look(int code) {
-    picture = grey(code);
-    return photographer.develop(picture, cv::Mat1f(240, 320, 3.F), k++);
+    return photographer.develop(to_linear(grey(code)), cv::Mat1f(240, 320, 3.F), k++, picture);
   }
 
   Photographer photographer;

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "sim/camera/camera_renderer.h"
 #include "sim/camera/gl_context.h"
+#include "sim/camera/lens_renderer.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/refusal.h"
@@ -81,15 +81,16 @@ TEST_F(GlFailure, ADriverThatMesaLacksIsNamedInsteadOfACrash) {
 // A renderer that is not current must become current to draw and to release its context.
 TEST_F(GlFailure, BetweenFramesIsAnErrorAndTheRendererStillLetsGo) {
   World world(test::scenario_in("lab", 0, 1)), other_world(test::scenario_in("lab", 0, 1));
-  std::optional<CameraRenderer> renderer(std::in_place, world.model(), world.camera_id(), 64, 48);
-  CameraRenderer other(other_world.model(), other_world.camera_id(), 64, 48);
+  const Pinhole camera = Pinhole::from_fovy(64, 48, 1);
+  std::optional<LensRenderer> renderer(std::in_place, world.model(), world.camera_id(), camera);
+  LensRenderer other(other_world.model(), other_world.camera_id(), camera);
   renderer->update();
   other.update();
-  cv::Mat3b image;
+  cv::Mat3f image;
   fails_to_make_current = true;
-  EXPECT_THROW(renderer->render_colour(image), std::runtime_error);
+  EXPECT_THROW(renderer->render_light(image), std::runtime_error);
   EXPECT_NO_THROW(renderer.reset());
-  EXPECT_NO_THROW(other.render_colour(image)) << "it is current all the time";
+  EXPECT_NO_THROW(other.render_light(image)) << "it is current all the time";
   EXPECT_GT(cv::countNonZero(image.reshape(1)), 0);
 }
 

@@ -210,6 +210,21 @@ TEST(ImuNoise, ReadingsStayInTheRangeAndAreMultiplesOfTheResolution) {
   EXPECT_GT(saturated, 300);  // of 3000: a third lies beyond one deviation
 }
 
+TEST(ImuNoise, TheLargestReadingIsTheLastMultipleOfTheResolutionWithinTheRange) {
+  scenario::Imu imu = imu_of({}, 200);
+  imu.gyroscopes.range_radps = 0.5;
+  imu.gyroscopes.resolution_radps = 0.04;
+  imu.accelerometers.range_mps2 = 0.3;  // three times .1, up to rounding
+  imu.accelerometers.resolution_mps2 = 0.1;
+  ImuNoiseModel model(imu, 1);
+  for (const double sign : {-1.0, 1.0}) {
+    const ImuSample sample = model.corrupt(
+        {0, Eigen::Vector3d::Constant(sign * 0.51), Eigen::Vector3d::Constant(sign * 4)});
+    EXPECT_LT((sample.gyro_radps.array() - sign * 0.48).abs().maxCoeff(), 1e-15);
+    EXPECT_LT((sample.accel_mps2.array() - sign * 0.3).abs().maxCoeff(), 1e-15);
+  }
+}
+
 TEST(ImuNoise, TheBiasItTellsIsTheOneInTheSample) {
   ImuNoise noise;  // no white noise: only the bias is added
   noise.gyroscope_random_walk = 1e-3;

@@ -127,6 +127,48 @@ TEST(Imu, OnWheelsOverBumpsIntegratesToAttitudeAndVelocity) {
   expect_exact(world, 100, 3);
 }
 
+/// The rate and the specific force of an instant, by central differences of the exact motion, whose
+/// error grows with the square of the step. A mean is that of half a period earlier.
+TEST(Imu, ReadsTheInstantOfItsStampOrTheMeanBeforeIt) {
+  auto s = test::scenario_in("lab", 0, 3);
+  s.ego = {};
+  s.ego.path = {{0, {0, 0, 0.6}, {0, 0, 0}},
+                {0.3, {0.1, 0.02, 0.62}, {0.05, -0.06, 0.3}},
+                {0.6, {0.3, 0.05, 0.6}, {-0.05, 0.06, 0.8}},
+                {0.9, {0.5, 0.05, 0.6}, {0, 0, 0.9}}};
+  s.imu.rate_hz = 500;
+  constexpr std::int64_t kPeriod = kSecond / 500, kStep = kPeriod / 2;
+  for (const auto& [reading, lag_ns] : {std::pair{scenario::ImuReading::sample, std::int64_t{0}},
+                                        {scenario::ImuReading::mean, kPeriod / 2}}) {
+    s.imu.reading = reading;
+    World world(s);
+    std::vector<ImuSample> imu = read(world, kSecond / 2);
+    World stepped(s);
+    const auto motion_at = [&](std::int64_t t_ns) {
+      read(stepped, t_ns);
+      return std::pair(stepped.T_WS(), stepped.v_WS_mps());
+    };
+    double most_gyro = 0, most_accel = 0, moved = 0;
+    for (std::size_t i = 50; i < imu.size(); i += 20) {
+      const std::int64_t t_ns = imu[i].t_ns - lag_ns;
+      const auto [before, v_before] = motion_at(t_ns - kStep);
+      const auto [now, v_now] = motion_at(t_ns);
+      const auto [after, v_after] = motion_at(t_ns + kStep);
+      const double span_s = 2e-9 * kStep;
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(before.R.transpose() * after.R));
+      const Vector3d rate = turn.angle() / span_s * turn.axis();
+      const Vector3d force =
+          now.R.transpose() * ((v_after - v_before) / span_s + Vector3d(0, 0, kGravity));
+      most_gyro = std::max(most_gyro, (imu[i].gyro_radps - rate).norm());
+      most_accel = std::max(most_accel, (imu[i].accel_mps2 - force).norm());
+      moved = std::max(moved, rate.norm());
+    }
+    EXPECT_GT(moved, 1);
+    EXPECT_LT(most_gyro, 2e-4);  // half a period of some 10 rad/s^2 would be 1e-2
+    EXPECT_LT(most_accel, 5e-3);
+  }
+}
+
 TEST(Imu, ReadingsFallOnWholeMultiplesOfThePeriod) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
   s.imu.rate_hz = 300;  // a period that is no decimal fraction of a second

@@ -10,6 +10,7 @@
 
 #include "sim/base/random.h"
 #include "sim/camera/lens_renderer.h"
+#include "sim/camera/linear_light.h"
 #include "sim/simulation.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
@@ -130,7 +131,7 @@ TEST(LensRenderer, HasTheDepthAndTheGeomOfEachPixelsRay) {
   for (const scenario::Camera& camera : all) {
     World world(boxes(camera));
     const Optics optics(lens_of(camera));
-    LensRenderer renderer(world.model(), world.camera_id(), optics, world.groups());
+    LensRenderer renderer(world.model(), world.camera_id(), optics, 5, world.groups());
     renderer.update();
     cv::Mat1f depth_m;
     cv::Mat1i geom;
@@ -172,14 +173,16 @@ TEST(LensRenderer, HasTheDepthAndTheGeomOfEachPixelsRay) {
 
 TEST(LensRenderer, RefusesALensThatNeedsTooLargeAPicture) {
   scenario::Camera camera = cameras().front();
-  camera.width_px = 2600;
+  camera.width_px = 5200;
   camera.height_px = 200;
-  camera.focal_px = Vector2d(1000, 1000);
+  camera.focal_px = Vector2d(2000, 2000);
   camera.centre_px.reset();
   camera.distortion = scenario::Distortion{true, {0, 0, 0, 0}};
+  scenario::Scenario s = boxes(camera);
+  s.image.samples = 5;
   EXPECT_NE(test::scenario_error([&] {
-              Simulation{boxes(camera)};
-            }).find("test.yaml:3: camera.distortion: the picture would be resampled from one of"),
+              Simulation{s};
+            }).find("test.yaml:3: camera.distortion: the picture would be made of"),
             std::string::npos);
 }
 
@@ -192,34 +195,36 @@ double spread_px(const scenario::Camera& camera) {
       <geom type="plane" size="9 9 .1" pos="0 0 -9"/></worldbody></mujoco>)",
       0, 1);
   s.camera = camera;
+  s.image.samples = scenario::Image{}.samples;
   Simulation simulation(s);
-  cv::Mat1b grey;
-  cv::cvtColor(simulation.next()->image, grey, cv::COLOR_BGR2GRAY);
+  const cv::Mat3f light = to_linear(simulation.next()->image);
   double sum = 0;
   int rows = 0;
-  for (int y = grey.rows / 2 - 60; y < grey.rows / 2 + 60; ++y, ++rows) {
+  for (int y = light.rows / 2 - 60; y < light.rows / 2 + 60; ++y, ++rows) {
     double weight = 0, mean = 0, square = 0;
-    for (int x = grey.cols / 2 - 20; x < grey.cols / 2 + 20; ++x) {
-      const double step = grey(y, x + 1) - grey(y, x), at = x - grey.cols / 2;
+    for (int x = light.cols / 2 - 20; x < light.cols / 2 + 20; ++x) {
+      const double step = light(y, x + 1)[1] - light(y, x)[1], at = x - light.cols / 2;
       weight += step;
       mean += step * at;
       square += step * at * at;
     }
-    EXPECT_GT(weight, 100);
+    EXPECT_GT(weight, 0.5);
     sum += square / weight - mean * mean / weight / weight;
   }
   return std::sqrt(sum / rows);
 }
 
-TEST(LensRenderer, SpreadsAPointHardlyMoreThanAPinhole) {
+TEST(LensRenderer, SpreadsAPointAsAPinholeDoes) {
   scenario::Camera camera;
   camera.mount_position_m = {0.2, 0, 0.45};
   const double pinhole_px = spread_px(camera);
   camera.distortion = scenario::Distortion{false, {-0.2, 0.05, 0, 0, 0}};
   const double lens_px = spread_px(camera);
-  EXPECT_NEAR(pinhole_px, 0.6, 0.1);
-  const double more_px = std::sqrt(lens_px * lens_px - pinhole_px * pinhole_px);
-  EXPECT_LT(more_px, 0.4) << lens_px << " and " << pinhole_px;
+  // the lens's point spread, the area of a pixel, and the difference of two pixels
+  const double expected_px =
+      std::hypot(scenario::Image{}.point_spread_px, 1 / std::sqrt(12.0), 1 / std::sqrt(12.0));
+  EXPECT_NEAR(pinhole_px, expected_px, 0.02);
+  EXPECT_NEAR(lens_px, expected_px, 0.02);
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/camera/camera_renderer.h"
+#include "sim/camera/lens_renderer.h"
+#include "sim/camera/linear_light.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/refusal.h"
@@ -47,9 +48,8 @@ struct Agreement {
 /// Compares every seventh pixel of every fifth row.
 Agreement compare(const scenario::Scenario& s) {
   World world(s);
-  const Pinhole camera =
-      Pinhole::from_fovy(s.camera.width_px, s.camera.height_px, s.camera.fovy_rad);
-  CameraRenderer renderer(world.model(), world.camera_id(), camera.width_px, camera.height_px);
+  const Pinhole camera = test::pinhole_of(s.camera);
+  LensRenderer renderer(world.model(), world.camera_id(), camera);
   renderer.update();
   cv::Mat1f depth;
   cv::Mat1i geom;
@@ -113,7 +113,7 @@ Vector2d centroid(const cv::Mat1b& mask) {
 
 /// The colour before the lens and the geoms of a world's first frame.
 struct Drawn {
-  cv::Mat3b colour;
+  cv::Mat3f colour;
   cv::Mat1i geom;
 
   explicit Drawn(const scenario::Scenario& s) {
@@ -229,6 +229,98 @@ TEST(Render, APointLandsOnThePixelThatThePinholeSays) {
   }
 }
 
+/// A white sheet 3 m before a black wall, each evenly lit, with an upright left edge `left_m` to
+/// the left of the axis (right: below 0), of a picture of 64 x 48 px.
+scenario::Scenario sheet(double left_m, double right_m, const std::string& white = "1 1 1 1") {
+  scenario::Scenario s = scenario_in_mjcf(
+      fmt::format(R"(<mujoco><statistic extent="10"/><visual><headlight ambient="1 1 1"
+        diffuse="0 0 0"/></visual><worldbody><geom type="plane" size="9 9 .1" pos="0 0 -9"/>
+        <geom type="box" pos="4.1 0 0" size=".1 20 20" rgba="0 0 0 1"/>
+        <geom type="box" pos="3.1 {} 0" size=".1 {} 9" rgba="{}"/></worldbody></mujoco>)",
+                  (left_m + right_m) / 2, (left_m - right_m) / 2, white),
+      0, 1);
+  s.image.samples = scenario::Image{}.samples;
+  s.camera.width_px = 64;
+  s.camera.height_px = 48;
+  s.camera.mount_position_m = {0, 0, 0.45};
+  return s;
+}
+
+/// A pixel's light is its share of the sheet, so that the light of a row is the sheet's width in
+/// it: to half of the distance between two places of samples along the row.
+TEST(Render, ThePixelsOfAnOutlineHaveTheShareThatTheSurfaceCovers) {
+  for (const auto& [samples, places] : {std::pair{1, 1}, {4, 2}, {5, 5}, {9, 3}}) {
+    double worst_px = 0;
+    for (double left_m = 0.2; left_m < 0.3; left_m += 0.007) {
+      scenario::Scenario s = sheet(left_m, -9);
+      s.image.samples = samples;
+      const double focal_px = test::pinhole_of(s.camera).focal_px;
+      const Observation o = *Simulation(s).next();
+      double light_px = 0;
+      for (int x = 0; x < 64; ++x) light_px += o.rendered(20, x)[1];
+      // from the left edge, at 31.5 - f left / z, to the right end of the picture, at 63.5
+      worst_px = std::max(worst_px, std::abs(light_px - (32 + focal_px * left_m / 3)));
+    }
+    EXPECT_LT(worst_px, 0.5 / places + 0.01) << samples;
+    EXPECT_GT(worst_px, 0.3 / places) << samples;
+  }
+}
+
+/// The same for a bar, behind the lens: its point spread acts on light, which it only moves.
+TEST(Render, ABarIsInLightAsWideAsItIsDrawn) {
+  for (const double right_m : {-0.05, -0.11, -0.3}) {
+    scenario::Scenario s = sheet(0.2, right_m, ".4 .4 .4 1");
+    s.image.noise.reset();
+    const double focal_px = test::pinhole_of(s.camera).focal_px;
+    const cv::Mat3f light = to_linear(Simulation(s).next()->image);
+    double sum = 0;
+    for (int x = 0; x < 64; ++x) sum += light(20, x)[1];
+    const double white = light(20, 31)[1];
+    // two edges, each to .1 px, and the rounding of codes in some four pixels
+    EXPECT_NEAR(sum / white, focal_px * (0.2 - right_m) / 3, 0.2 + 0.02);
+  }
+}
+
+/// Light between two codes of 8 bits stays between them until the sensor.
+TEST(Render, TheLightOfASurfaceIsFinerThanTheCodesOfAPicture) {
+  const auto light_of = [](double code) {
+    return Simulation(sheet(9, -9, fmt::format("{0} {0} {0} 1", code / 255)))
+        .next()
+        ->rendered(20, 20)[1];
+  };
+  const float dark = light_of(4), next = light_of(5);
+  for (const double part : {0.25, 0.5, 0.75}) {
+    EXPECT_NEAR((light_of(4 + part) - dark) / (next - dark), part, 0.01);
+  }
+}
+
+TEST(Render, ACylinderIsRound) {
+  scenario::Scenario s = scenario_in_mjcf(
+      floor_with("<body name='pole' pos='3 0 .5'><geom type='cylinder' size='.9 .5'/></body>"), 0,
+      1);
+  for (const double yaw : {0.0, 0.03, 0.06}) {
+    s.ego.heading_rad = yaw;  // other sides of the prism make the outline
+    Simulation simulation(s);
+    const Observation o = *simulation.next();
+    const Vector3d eye = o.truth.now.T_WC.p;
+    const double away_m = (Vector3d(3, 0, 0) - eye).head<2>().norm();
+    // the half angle of the outline, and the rows of pixels that show it
+    const double half = std::asin(0.9 / away_m), to_axis = std::atan2(-eye.y(), 3 - eye.x()) - yaw;
+    const Pinhole camera = simulation.calibration().camera;
+    const int row = cvRound(camera.centre_px.y());  // level with the eye
+    int first = -1, last = -1;
+    for (int x = 0; x < camera.width_px; ++x) {
+      if (o.truth.object(row, x) != 1) continue;
+      if (first < 0) first = x;
+      last = x;
+    }
+    const double left_px = camera.centre_px.x() - camera.focal_px * std::tan(to_axis + half);
+    const double right_px = camera.centre_px.x() - camera.focal_px * std::tan(to_axis - half);
+    EXPECT_NEAR(first - 0.5, left_px, 0.5 + 0.35) << yaw;  // .12 % of some 290 px
+    EXPECT_NEAR(last + 0.5, right_px, 0.5 + 0.35) << yaw;
+  }
+}
+
 TEST(Render, DepthIsAlongTheOpticalAxisAndNotAlongTheRay) {
   // a wall across the view, 5 m before the camera
   const auto s =
@@ -265,42 +357,42 @@ TEST(Render, TheRoverItselfIsNoLandmark) {
 
 TEST(Render, TheGroundTruthPassLeavesNoTraceInTheColourImage) {
   World world(scenario_in("lab", 0, 1));
-  CameraRenderer renderer(world.model(), world.camera_id(), 640, 480);
-  cv::Mat3b before;
-  cv::Mat3b after;
+  LensRenderer renderer(world.model(), world.camera_id(), Pinhole::from_fovy(640, 480, 1));
+  cv::Mat3f before, after;
   cv::Mat1f depth;
   cv::Mat1i geom;
   renderer.update();
-  renderer.render_colour(before);
+  renderer.render_light(before);
   renderer.render_depth_and_geoms(depth, geom);
-  renderer.render_colour(after);
+  renderer.render_light(after);
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
 }
 
 TEST(Render, TwoRenderersInOneProcessDoNotDisturbEachOther) {
   World world(scenario_in("lab", 0, 1));
   World small_world(scenario_in("lab", 0, 1));
-  CameraRenderer renderer(world.model(), world.camera_id(), 640, 480);
+  LensRenderer renderer(world.model(), world.camera_id(), Pinhole::from_fovy(640, 480, 1));
   renderer.update();
-  cv::Mat3b alone;
-  renderer.render_colour(alone);
-  cv::Mat3b beside;
+  cv::Mat3f alone, beside;
+  renderer.render_light(alone);
   {
-    CameraRenderer other(small_world.model(), small_world.camera_id(), 64, 48);
+    LensRenderer other(small_world.model(), small_world.camera_id(), Pinhole::from_fovy(64, 48, 1));
     other.update();
-    cv::Mat3b small;
-    other.render_colour(small);
-    renderer.render_colour(beside);
+    cv::Mat3f small;
+    other.render_light(small);
+    renderer.render_light(beside);
     EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0);
   }
-  renderer.render_colour(beside);
+  renderer.render_light(beside);
   EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0) << "after the other one is gone";
 }
 
 TEST(Render, AnImageLargerThanGlCanDrawIsAnErrorAndNotClipped) {
   World world(scenario_in_mjcf(floor_with(""), 0, 1));
-  const std::string what = lcs::test::refusal_of<std::runtime_error>(
-      [&] { CameraRenderer(world.model(), world.camera_id(), 100'000, 100'000); });
+  const std::string what = lcs::test::refusal_of<std::runtime_error>([&] {
+    const View large{Pinhole::from_fovy(100'000, 100'000, 1), 0, {}};
+    CameraRenderer(world.model(), world.camera_id(), large, large);
+  });
   EXPECT_NE(what.find("100000x100000"), std::string::npos) << what;
 }
 

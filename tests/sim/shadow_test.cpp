@@ -81,9 +81,7 @@ std::vector<Place> edge_places() {
 /// Share of its light that a pixel keeps.
 double share(const Observation& o, const Vector2d& px) {
   const cv::Point at(cvRound(px.x()), cvRound(px.y()));
-  cv::Mat3b even;
-  CameraRenderer::blur(o.rendered, even);
-  return to_linear(o.image)(at)[1] / to_linear(even)(at)[1];
+  return to_linear(o.image)(at)[1] / to_linear(test::behind_lens(o.rendered))(at)[1];
 }
 
 bool is_on_floor(const Observation& o, const Vector2d& px) {
@@ -178,9 +176,7 @@ TEST(Shadow, TakesThoseOfADistortedPictureToo) {
 TEST(Shadow, IsNotThereUnlessAskedForAndLeavesTheTruthAlone) {
   const Observation off = frame_of(lit(false)), on = frame_of(lit(true));
   EXPECT_TRUE(off.truth.shadow_edge.empty());
-  cv::Mat3b behind_lens;
-  CameraRenderer::blur(off.rendered, behind_lens);
-  EXPECT_EQ(cv::norm(off.image, behind_lens, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(off.image, test::behind_lens(off.rendered), cv::NORM_INF), 0);
   EXPECT_GT(cv::norm(off.image, on.image, cv::NORM_INF), 20);
   EXPECT_EQ(cv::norm(off.rendered, on.rendered, cv::NORM_INF), 0);
   EXPECT_EQ(cv::norm(off.truth.depth_m, on.truth.depth_m, cv::NORM_INF), 0);

@@ -256,16 +256,13 @@ TEST(Exposure, IsTheMeanOfPicturesDuringIt) {
     cv::Mat3f sum(120, 160, cv::Vec3f(0, 0, 0));
     for (int i = 0; i < n; ++i) {
       const double at_s = kExposure_s * ((i + 0.5) / n - 0.5);
-      cv::scaleAdd(to_linear(seen_at(s, 0.2 + at_s).rendered), 1.0 / n, sum, sum);
+      cv::scaleAdd(seen_at(s, 0.2 + at_s).rendered, 1.0 / n, sum, sum);
     }
-    cv::Mat3b mean, behind_lens;
-    to_codes(sum, mean);
-    CameraRenderer::blur(mean, behind_lens);
-    best = std::min(best, cv::norm(behind_lens, smeared.image, cv::NORM_L1) / (3 * 120 * 160));
+    best = std::min(best,
+                    cv::norm(test::behind_lens(sum), smeared.image, cv::NORM_L1) / (3 * 120 * 160));
   }
-  cv::Mat3b behind_lens;
-  CameraRenderer::blur(middle.rendered, behind_lens);
-  sharp = cv::norm(behind_lens, smeared.image, cv::NORM_L1) / (3 * 120 * 160);
+  sharp =
+      cv::norm(test::behind_lens(middle.rendered), smeared.image, cv::NORM_L1) / (3 * 120 * 160);
   EXPECT_LT(best, kAlike);
   EXPECT_GT(sharp, 10 * best);
   // the truth is that of the middle

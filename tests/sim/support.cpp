@@ -7,6 +7,8 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/camera/linear_light.h"
+#include "sim/camera/point_spread.h"
 #include "sim/world/world.h"
 
 namespace lcs::sim::test {
@@ -25,6 +27,7 @@ scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int f
   s.camera.mount_position_m = {0.2, 0, 0.45};
   s.imu.preset = "ideal";
   s.image.noise.reset();
+  s.image.samples = 1;
   return s;
 }
 
@@ -59,6 +62,14 @@ scenario::Actor line_actor(const std::string& name, scenario::Shape shape,
   actor.trajectory =
       scenario::Line{.from_m = from_m, .heading_rad = heading_rad, .speed_mps = speed_mps};
   return actor;
+}
+
+cv::Mat3b behind_lens(cv::Mat3f light) {
+  light = light.clone();
+  spread_points(light, scenario::Image{}.point_spread_px);
+  cv::Mat3b picture;
+  to_codes(light, picture);
+  return picture;
 }
 
 std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold) {

@@ -17,8 +17,8 @@ namespace lcs::sim::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// A rover that drives along x at a constant speed, with an ideal IMU and a camera without noise,
-/// in a scene of the project.
+/// A rover that drives along x at a constant speed, with an ideal IMU and a camera without noise
+/// and with one sample a pixel, which is fastest, in a scene of the project.
 scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int frames);
 
 /// The same in a scene given as MJCF, written to a file that exists as long as the test.
@@ -30,6 +30,14 @@ std::string floor_with(const std::string& more);
 /// An actor of a shape on a straight line.
 scenario::Actor line_actor(const std::string& name, scenario::Shape shape,
                            const Eigen::Vector2d& from_m, double heading_rad, double speed_mps);
+
+/// The optics of a scenario's camera without distortion.
+inline Pinhole pinhole_of(const scenario::Camera& camera) {
+  return Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
+}
+
+/// The picture that a noiseless camera makes of rendered light, in daylight.
+cv::Mat3b behind_lens(cv::Mat3f light);
 
 /// FAST-9 corners with non-maximum suppression, px.
 std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold = 20);

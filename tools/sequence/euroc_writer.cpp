@@ -93,13 +93,14 @@ class EurocWriter : public Writer {
     const scenario::Imu& imu = info_.scenario.imu;
     return sensor_yaml("imu", fmt::format("simulated, preset {}", imu.preset), sim::Pose{}) +
            fmt::format(
-               "rate_hz: {}\n\n# Noise: Kalibr's model.\n"
+               "rate_hz: {}\n\n# {}.\n\n# Noise: Kalibr's model.\n"
                "gyroscope_noise_density: {}      # [ rad / s / sqrt(Hz) ]\n"
                "gyroscope_random_walk: {}        # [ rad / s^2 / sqrt(Hz) ]\n"
                "accelerometer_noise_density: {}  # [ m / s^2 / sqrt(Hz) ]\n"
                "accelerometer_random_walk: {}    # [ m / s^3 / sqrt(Hz) ]\n",
-               imu.rate_hz, imu.noise.gyroscope_noise_density, imu.noise.gyroscope_random_walk,
-               imu.noise.accelerometer_noise_density, imu.noise.accelerometer_random_walk);
+               imu.rate_hz, reading_text(imu), imu.noise.gyroscope_noise_density,
+               imu.noise.gyroscope_random_walk, imu.noise.accelerometer_noise_density,
+               imu.noise.accelerometer_random_walk);
   }
 
   std::string camera_yaml() const {

@@ -37,8 +37,8 @@ Kalibr (`--formats kalibr`):
 constexpr std::string_view kKitti = R"(
 KITTI odometry (`--formats kitti`), of cameras without distortion, side by side:
 
-* `kitti/image_<i>/<k>.png`: the pictures of camera i under other names, in colour; `kitti/times.txt`: seconds, 0 at the
-  first frame; `kitti/poses.txt`: `T_WC` of camera 0, 12 numbers a line (KITTI's own begin at the identity).
+* `kitti/image_<i>/<k>.png`: the pictures of camera i under other names, in colour; `kitti/times.txt`: seconds, by
+  the clock of the camera, 0 at time 0 of the simulation; `kitti/poses.txt`: `T_WC` of camera 0, 12 numbers a line (KITTI's own begin at the identity).
 * `kitti/calib.txt`: `P<i>`, row by row, projects a point in camera 0 to the pixels of camera i.
 )";
 constexpr std::string_view kMcap = R"(

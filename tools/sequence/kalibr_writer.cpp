@@ -41,7 +41,8 @@ class KalibrWriter : public Writer {
     return fmt::format(
         "{}:\n{}  cam_overlaps: [{}]\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
         "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
-        "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}\n{}",
+        "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}  # of the clocks; "
+        "{}\n{}",
         camera_name(place),
         place == 0 ? ""
                    : "  T_cn_cnm1:\n" + rows(matrix_of(between(own, *info_.rig[place - 1])), 4),
@@ -50,7 +51,8 @@ class KalibrWriter : public Writer {
         lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan",
         lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px,
         camera_name(place), rows(matrix_of(own.T_BC.inverse() * own.T_BS), 4),
-        own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s), shutter(place));
+        own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s),
+        reading_text(info_.scenario.imu), shutter(place));
   }
 
   std::string imu() const {
@@ -58,10 +60,10 @@ class KalibrWriter : public Writer {
     return fmt::format(
         "accelerometer_noise_density: {}\naccelerometer_random_walk: {}\n"
         "gyroscope_noise_density: {}\ngyroscope_random_walk: {}\n"
-        "rostopic: /imu0\nupdate_rate: {}\n{}",
+        "rostopic: /imu0\nupdate_rate: {}\n# {}\n{}",
         noise.accelerometer_noise_density, noise.accelerometer_random_walk,
         noise.gyroscope_noise_density, noise.gyroscope_random_walk, info_.scenario.imu.rate_hz,
-        imu_errors());
+        reading_text(info_.scenario.imu), imu_errors());
   }
 
   /// Kalibr's camera-IMU calibration has no place for it.

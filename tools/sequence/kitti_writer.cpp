@@ -15,7 +15,8 @@ class KittiWriter : public Writer {
     output.files.push_back({fmt::format("kitti/image_{}/{:06}.png", info_.place, frame.now.index),
                             "", picture_path(frame.stamp_ns, info_.place)});
     if (!info_.is_first()) return;
-    output.rows["kitti_times"] = seconds(frame.now.t_ns) + "\n";
+    output.rows["kitti_times"] =
+        fmt::format("{:.9f}\n", 1e-9 * static_cast<double>(frame.stamp_ns - kEpoch_ns));
     const std::array<double, 16> T_WC = matrix_of(frame.now.truth.now.T_WC);
     output.rows["kitti_poses"] = numbers(std::span(T_WC).first(12), " ") + "\n";
   }

@@ -28,6 +28,17 @@ std::string pose_line(std::int64_t t_ns, const sim::Pose& pose) {
                      q.x(), q.y(), q.z(), q.w());
 }
 
+std::string reading_text(const scenario::Imu& imu) {
+  if (imu.reading == scenario::ImuReading::sample) {
+    return "a reading is the sample of the instant of its stamp (imu.reading: sample)";
+  }
+  return fmt::format(
+      "a reading is the mean over the {} ms before its stamp (imu.reading: mean): exact for tools "
+      "that integrate it over this time; tools that take it for a sample of its stamp see the "
+      "motion {} ms late",
+      1000 / imu.rate_hz, 500 / imu.rate_hz);
+}
+
 std::vector<double> four_coefficients(const sim::Lens& lens) {
   std::vector<double> coefficients = lens.coefficients;
   if (coefficients.empty() || (coefficients.size() == 5 && coefficients[4] == 0)) {

@@ -20,6 +20,9 @@ std::string numbers(std::span<const double> values, const char* separator);
 /// Seconds with nine digits after the point. \param t_ns >= 0.
 std::string seconds(std::int64_t t_ns);
 
+/// What an IMU's reading is the reading of, for a comment in a file: without a line break.
+std::string reading_text(const scenario::Imu& imu);
+
 /// The coefficients of a distortion as Kalibr has them: four, zeros if there is none. A k3 other
 /// than 0, which Kalibr's radtan lacks, is the fifth.
 std::vector<double> four_coefficients(const sim::Lens& lens);

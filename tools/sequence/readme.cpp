@@ -75,7 +75,7 @@ coordinates of a point in B to those in A.
 |---|---|
 | W, world (EuRoC's R) | z up; gravity is {gravity} m/s^2 along -z |
 | B, rover | x ahead, y left, z up; {origin} |
-| S, IMU (EuRoC's body) | as `T_BS` in `lcs.json` has it; an accelerometer at rest reads +9.81 m/s^2 upwards |
+| S, IMU (EuRoC's body) | as `T_BS` in `lcs.json` has it; an accelerometer at rest reads +{gravity} m/s^2 upwards |
 | C, camera | x right, y down, z forward |
 
 {camera}
@@ -85,6 +85,7 @@ Frames count from 0 (in MOTChallenge's and COCO's files from 1). Times are nanos
 first frame, which is time 0 of the simulation: frame k is at {epoch} + round(k * 10^9 / {rate}).
 Sample i of a sensor is at {epoch} + round(i * 10^9 / its rate). Picture, depth, masks, boxes and poses of a frame
 belong to the very same moment; {clocks}
+Of the IMU {reading}.
 
 ## Files
 )",
@@ -96,7 +97,7 @@ belong to the very same moment; {clocks}
       fmt::arg("origin", info.calibration.on_ground ? "origin on the ground below its middle"
                                                     : "origin at the IMU"),
       fmt::arg("epoch", kEpoch_ns), fmt::arg("shutter", shutter_text(s.camera)),
-      fmt::arg("clocks", clocks_text(s.camera)));
+      fmt::arg("clocks", clocks_text(s.camera)), fmt::arg("reading", reading_text(s.imu)));
 }
 
 /// The cameras of a rig.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/camera/linear_light.h"
 #include "tools/sequence/flow_code.h"
 #include "tools/sequence/objects.h"
 
@@ -36,9 +37,9 @@ constexpr int kBlock_px = 16;
 constexpr int kLeastCompared = 64;  // of the pixels of a block
 constexpr double kMostDiffering = 0.1;
 constexpr int kDisplaced_px = 3;
-constexpr int kLongOutline = 200;      // in pairs of neighbouring pixels
-constexpr double kMostContrast = 2;    // of a displaced outline, over that in place
-constexpr double kLeastContrast = 10;  // by which it must be larger, in grey levels
+constexpr int kLongOutline = 200;       // in pairs of neighbouring pixels
+constexpr double kMostContrast = 1.75;  // of a displaced outline, over that in place
+constexpr double kLeastContrast = 10;   // by which it must be larger, in grey levels
 
 template <class... Arguments>
 [[noreturn]] void disagree(int frame, fmt::format_string<Arguments...> what,
@@ -94,6 +95,25 @@ std::optional<double> plane_inverse_depth(const sim::Optics& camera, const sim::
   return plane.dot(camera.back_project(px, 1));
 }
 
+/// 1 where the pixels beside show the same geom, so that the pixel shows no other surface.
+cv::Mat1b inner_pixels(const cv::Mat1i& geom) {
+  cv::Mat1f ids, least, most;
+  geom.convertTo(ids, CV_32F);
+  cv::erode(ids, least, {});
+  cv::dilate(ids, most, {});
+  cv::Mat1b inner;
+  cv::compare(least, most, inner, cv::CMP_EQ);
+  return inner;
+}
+
+cv::Mat1b grey_of(const cv::Mat3f& light) {
+  cv::Mat3b codes;
+  cv::Mat1b grey;
+  sim::to_codes(light, codes);
+  cv::cvtColor(codes, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
 /// Whether the surface at a pixel is nearly as large in the next frame: textures keep their detail.
 bool is_steady(const cv::Mat2f& motion_px, int x, int y) {
   const auto change_px = [&](int column, int row) {
@@ -143,15 +163,11 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
 
 Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
                         const TrueFlow& flow) {
-  cv::Mat1b grey, next_grey, darkest, brightest;
-  cv::cvtColor(now.rendered, grey, cv::COLOR_BGR2GRAY);
-  cv::cvtColor(next.rendered, next_grey, cv::COLOR_BGR2GRAY);
+  cv::Mat1b darkest, brightest;
+  const cv::Mat1b grey = grey_of(now.rendered), next_grey = grey_of(next.rendered);
   cv::erode(next_grey, darkest, {});
   cv::dilate(next_grey, brightest, {});
-  cv::Mat1f geom, least_geom, most_geom;
-  next.geom.convertTo(geom, CV_32F);
-  cv::erode(geom, least_geom, {});
-  cv::dilate(geom, most_geom, {});
+  const cv::Mat1b now_inner = inner_pixels(now.geom), next_inner = inner_pixels(next.geom);
 
   /// A compared pixel: its grey level, and the range of levels round its goal.
   struct Compared {
@@ -174,10 +190,10 @@ Agreement check_picture(const sim::Observation& now, const sim::Observation& nex
           const cv::Rect goal(static_cast<int>(goal_px.x), static_cast<int>(goal_px.y), 2, 2);
           if ((goal & cv::Rect({1, 1}, grey.size() - cv::Size(2, 2))) != goal) continue;
           Compared pixel{static_cast<double>(grey(y, x)), 255, 0};
-          bool is_inside = true;
+          bool is_inside = now_inner(y, x) != 0;
           for (const cv::Point at : {goal.tl(), goal.tl() + cv::Point(1, 0),
                                      goal.tl() + cv::Point(0, 1), goal.tl() + cv::Point(1, 1)}) {
-            is_inside &= least_geom(at) == most_geom(at) && next.geom(at) == now.geom(y, x);
+            is_inside &= next_inner(at) && next.geom(at) == now.geom(y, x);
             pixel.low = std::min<double>(pixel.low, darkest(at));
             pixel.high = std::max<double>(pixel.high, brightest(at));
           }
@@ -212,8 +228,7 @@ Agreement check_outlines(const sim::Observation& frame, const cv::Mat1w& mask) {
     int pairs = 0;
     std::array<double, kSide * kSide> contrast{};  ///< by displacement, sums over pairs
   };
-  cv::Mat1b grey;
-  cv::cvtColor(frame.rendered, grey, cv::COLOR_BGR2GRAY);
+  const cv::Mat1b grey = grey_of(frame.rendered);
   std::map<int, Outline> outlines;  // by object
   for (int y = kDisplaced_px; y + kDisplaced_px + 1 < grey.rows; ++y) {
     for (int x = kDisplaced_px; x + kDisplaced_px + 1 < grey.cols; ++x) {
@@ -295,33 +310,50 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
     return norm > 0 ? Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix()
                     : Eigen::Matrix3d::Identity().eval();
   };
+  struct Reading {
+    Vector3d gyro, accel;
+  };
+  // without bias and errors
+  const auto corrected = [&](std::size_t i) -> Reading {
+    const sim::ImuSample& sample = frame.imu[i];
+    const Vector3d accel =
+        M_accel.triangularView<Eigen::Lower>().solve(sample.accel_mps2 - truth[i].accel_bias_mps2);
+    return {C_gyro_i.transpose() * M.triangularView<Eigen::Lower>().solve(sample.gyro_radps -
+                                                                          truth[i].gyro_bias_radps -
+                                                                          A * (C_gyro_i * accel)),
+            accel};
+  };
   Eigen::Matrix3d R_WS = truth.front().T_WS.R;
   Vector3d v_WS_mps = truth.front().v_WS_mps;
+  double unsure_rad = 0, unsure_mps = 0;
   for (std::size_t i = 1; i < truth.size(); ++i) {
     const sim::ImuSample& sample = frame.imu[i];
     if (is_beyond(sample.gyro_radps, range_radps, resolution_radps) ||
         is_beyond(sample.accel_mps2, range_mps2, resolution_mps2)) {
       return agreement;  // the motion is not in the readings
     }
-    const Vector3d accel =
-        M_accel.triangularView<Eigen::Lower>().solve(sample.accel_mps2 - truth[i].accel_bias_mps2);
-    const Vector3d gyro = C_gyro_i.transpose() * M.triangularView<Eigen::Lower>().solve(
-                                                     sample.gyro_radps - truth[i].gyro_bias_radps -
-                                                     A * (C_gyro_i * accel));
-    // Integrates attitude and velocity over one step by its mean rates.
+    const Reading now = corrected(i);
+    // The mean rates of the step; of two samples within half of their difference.
+    Reading mean = now;
     const double dt_s = static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9;
-    const Eigen::Matrix3d R_middle = R_WS * turn(0.5 * dt_s * gyro);
-    v_WS_mps += dt_s * (R_middle * accel - gravity_mps2 * Vector3d::UnitZ());
-    R_WS *= turn(dt_s * gyro);
+    if (imu.reading == scenario::ImuReading::sample) {
+      const Reading before = corrected(i - 1);
+      mean = {(before.gyro + now.gyro) / 2, (before.accel + now.accel) / 2};
+      unsure_rad += dt_s * (now.gyro - before.gyro).norm() / 2;
+      unsure_mps += dt_s * (now.accel - before.accel).norm() / 2;
+    }
+    const Eigen::Matrix3d R_middle = R_WS * turn(0.5 * dt_s * mean.gyro);
+    v_WS_mps += dt_s * (R_middle * mean.accel - gravity_mps2 * Vector3d::UnitZ());
+    R_WS *= turn(dt_s * mean.gyro);
   }
   const double span_s = static_cast<double>(truth.back().t_ns - truth.front().t_ns) * 1e-9;
   // Rounding errors of a static, noiseless IMU.
   constexpr double kRounding = 1e-9;
   // The scales of a triad are near 1; on three axes a resolution is off by sqrt(3) / 2 at most.
-  const double most_rad = kRounding +
+  const double most_rad = kRounding + unsure_rad +
                           kDeviations * imu.noise.gyroscope_noise_density * std::sqrt(span_s) +
                           resolution_radps.value_or(0) * span_s;
-  const double most_mps = kRounding +
+  const double most_mps = kRounding + unsure_mps +
                           kDeviations * imu.noise.accelerometer_noise_density * std::sqrt(span_s) +
                           resolution_mps2.value_or(0) * span_s + gravity_mps2 * span_s * most_rad;
   const double turned_rad =
