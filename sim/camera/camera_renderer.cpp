@@ -28,6 +28,7 @@ constexpr int kShadowMap = 4096;
 // Constants of GL/gl.h and GL/glext.h, which need not be installed.
 constexpr unsigned kRenderbuffer = 0x8D41, kRgba16 = 0x805B;
 constexpr unsigned kRgba = 0x1908, kUnsignedShort = 0x1403;
+constexpr unsigned kFramebuffer = 0x8D40, kComplete = 0x8CD5;
 constexpr unsigned kModelview = 0x1700;
 constexpr unsigned kFirstClipPlane = 0x3001;  // MuJoCo uses the one before for reflections
 constexpr unsigned kClipPlanes = 4;
@@ -100,7 +101,7 @@ struct CameraRenderer::Impl {
   RoundCylinders cylinders;
   std::array<mjvGLCamera, 2> eyes;  ///< of the model's camera, after an update
   cv::Mat4w codes;
-  std::vector<unsigned char> ids;
+  cv::Mat4w ids;
   std::vector<float> z;
 
   Impl(Model& model_, int camera, const View& colour_, const View& truth_, const GeomGroups& groups,
@@ -153,7 +154,7 @@ struct CameraRenderer::Impl {
     set_clip_planes();
     const Pinhole& p = truth.pinhole;
     codes.create(colour.pinhole.height_px, colour.pinhole.width_px);
-    ids.resize(std::size_t(p.width_px) * std::size_t(p.height_px) * 3);
+    ids.create(p.height_px, p.width_px);
     z.resize(std::size_t(p.width_px) * std::size_t(p.height_px));
   }
 
@@ -163,6 +164,12 @@ struct CameraRenderer::Impl {
     gl.function<void(unsigned, unsigned)>("glBindRenderbuffer")(kRenderbuffer, context.offColor);
     gl.function<void(unsigned, unsigned, int, int)>("glRenderbufferStorage")(
         kRenderbuffer, kRgba16, buffer_px.width, buffer_px.height);
+    if (gl.function<unsigned(unsigned)>("glCheckFramebufferStatus")(kFramebuffer) != kComplete) {
+      throw std::runtime_error(fmt::format(
+          "GL draws no codes of 16 bits into a picture of {}x{}; choose a smaller camera size, or "
+          "another LCS_GL",
+          buffer_px.width, buffer_px.height));
+    }
   }
 
   /// Sets planes that cut off what lies beside the used rays of the colour view.
@@ -227,6 +234,12 @@ struct CameraRenderer::Impl {
     return part;
   }
 
+  /// By GL, not by mjr_readPixels, which converts to 8 bits.
+  void read(const mjrRect& part, cv::Mat4w& to) const {
+    gl.function<void(int, int, int, int, unsigned, unsigned, void*)>("glReadPixels")(
+        part.left, part.bottom, part.width, part.height, kRgba, kUnsignedShort, to.data);
+  }
+
   // Read-back is bottom row first.
   std::size_t row(int y) const {
     return std::size_t(truth.pinhole.height_px - 1 - y) * std::size_t(truth.pinhole.width_px);
@@ -264,8 +277,7 @@ const cv::Mat4w& CameraRenderer::render_codes(bool has_shadows) {
   const mjrRect part = s.render(s.colour);
   s.scene.flags[mjRND_SHADOW] = 0;
   if (is_clipped) s.enable_clip_planes(false);
-  s.gl.function<void(int, int, int, int, unsigned, unsigned, void*)>("glReadPixels")(
-      part.left, part.bottom, part.width, part.height, kRgba, kUnsignedShort, s.codes.data);
+  s.read(part, s.codes);
   return s.codes;
 }
 
@@ -274,7 +286,8 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
   s.scene.flags[mjRND_SEGMENT] = 1;
   s.scene.flags[mjRND_IDCOLOR] = 1;
   const mjrRect part = s.render(s.truth);
-  call_mujoco([&] { mjr_readPixels(s.ids.data(), s.z.data(), part, &s.context); });
+  call_mujoco([&] { mjr_readPixels(nullptr, s.z.data(), part, &s.context); });
+  s.read(part, s.ids);
   s.scene.flags[mjRND_SEGMENT] = 0;
   s.scene.flags[mjRND_IDCOLOR] = 0;
 
@@ -283,14 +296,15 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
   const float n = s.scene.camera[0].frustum_near;
   const float f = s.scene.camera[0].frustum_far;
   for (int y = 0; y < part.height; ++y) {
-    const unsigned char* id = s.ids.data() + 3 * s.row(y);
+    const cv::Vec4w* id = s.ids[part.height - 1 - y];
     const float* z = s.z.data() + s.row(y);
     float* depth = depth_m[y];
     int* to = geom[y];
     // neighbouring pixels mostly show the same geom
     int colour = 0, shown = s.geom_of(colour);
-    for (int x = 0; x < part.width; ++x, id += 3) {
-      const int next = id[0] | id[1] << 8 | id[2] << 16;
+    for (int x = 0; x < part.width; ++x) {
+      // a byte of an id is in both bytes of its code
+      const int next = (id[x][0] & 255) | (id[x][1] & 255) << 8 | (id[x][2] & 255) << 16;
       if (next != colour) shown = s.geom_of(colour = next);
       to[x] = shown;
       depth[x] = to[x] < 0 ? std::numeric_limits<float>::infinity() : n * f / (f - z[x] * (f - n));

@@ -77,6 +77,9 @@ cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
       cosine(y, x) = std::min(1.F, w / (length * ray_length_(y, x)));
     }
   }
+  // the outermost pixels have no neighbour on one side: they face as the next ones do
+  cv::copyMakeBorder(cosine(cv::Rect(1, 1, cosine.cols - 2, cosine.rows - 2)).clone(), cosine, 1, 1,
+                     1, 1, cv::BORDER_REPLICATE);
   return cosine;
 }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -17,7 +17,8 @@
 namespace lcs::sim {
 namespace {
 
-constexpr int kMargin_px = 2;          // of the lattice, for the neighbours of a lens's points
+constexpr int kMargin_px = 2;  // of the lattice, for the neighbours of a lens's points
+constexpr int kTile_px = 32;
 constexpr int kMostSide_px = 1 << 14;  // of Mesa's pictures
 
 /// From pixels to a lattice of a^2 + b^2 points per pixel.
@@ -48,8 +49,7 @@ struct Lattice {
   double roll_rad() const { return std::atan2(b, a); }
 };
 
-/// Lattice points per pixel of the picture, along an axis, in a lattice of density 1 at the axis:
-/// the most that a lens's picture needs anywhere.
+/// The focal length of a pinhole whose pixels are nowhere larger than those of the picture, px.
 double scale_px(const Optics& optics) {
   const Lens& lens = optics.lens();
   if (optics.is_pinhole()) return lens.fu_px;
@@ -95,13 +95,11 @@ View truth_view(const Optics& optics, const View& lattice) {
   return optics.is_pinhole() ? View{optics.lens().pinhole(), 0, {}} : lattice;
 }
 
-}  // namespace
-
-LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int samples) {
-  const Lattice lattice(samples);
-  const cv::Size size_px = optics.size_px();
+/// The lattice as the pixels of a picture that sees all of a camera's field of view.
+/// \throws input::Error if it would be too large.
+View lattice_view(const Optics& optics, const Lattice& lattice) {
   const double density = scale_px(optics);
-  const double focal = std::sqrt(samples) * density;
+  const double focal = std::sqrt(lattice.samples()) * density;
   const Eigen::Matrix2d to_lattice = density * lattice.from_px();
   const Eigen::AlignedBox2d rays = seen_rays(optics);
   Eigen::AlignedBox2d box;
@@ -110,7 +108,7 @@ LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int sampl
   }
   // the axis is where a pinhole's pixel has a point in its middle, or four round it
   const Eigen::Vector2d first = to_lattice * optics.back_project({0, 0}, 1).head<2>();
-  const double shift = samples % 2 == 0 ? 0.5 : 0;
+  const double shift = lattice.samples() % 2 == 0 ? 0.5 : 0;
   const Eigen::Array2d low = box.min().array() - first.array() - shift;
   const Eigen::Array2d centre = kMargin_px - low.floor() - first.array() - shift;
   const Eigen::Array2i size = (box.max().array() + centre).ceil().cast<int>() + kMargin_px + 1;
@@ -121,46 +119,82 @@ LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int sampl
                        optics.is_pinhole() ? "size" : "distortion", size.x(), size.y(),
                        kMostSide_px, optics.is_pinhole() ? "" : ", or the field of view");
   }
-  Sampling sampling;
-  sampling.view.pinhole = {focal, centre.matrix(), size.x(), size.y()};
-  sampling.view.roll_rad = lattice.roll_rad();
+  View view{{focal, centre.matrix(), size.x(), size.y()}, lattice.roll_rad(), {}};
   // with a lattice point more on each side, where a cut edge may be out of place by rounding
-  sampling.view.used = {rays.min().array() - 1 / focal, rays.max().array() + 1 / focal};
+  view.used = {rays.min().array() - 1 / focal, rays.max().array() + 1 / focal};
+  return view;
+}
 
-  // the pixel of each point; -1: beside the picture
-  const Eigen::Matrix2d to_ray = to_lattice.inverse();
-  cv::Mat1i pixel_of(size.y(), size.x(), -1);
-  std::vector<int>& ends = sampling.ends;
-  ends.assign(static_cast<std::size_t>(size_px.area()) + 1, 0);
-  for (int y = 0; y < size.y(); ++y) {
-    for (int x = 0; x < size.x(); ++x) {
-      const Eigen::Vector2d ray = to_ray * (Eigen::Array2d(x, y) - centre).matrix();
-      if (!sampling.view.used->contains(ray)) continue;
+/// From a ray (x, y, 1) to its place in a view.
+Eigen::Matrix2d to_view(const View& view) {
+  return view.pinhole.focal_px * Eigen::Rotation2Dd(view.roll_rad).toRotationMatrix();
+}
+
+/// The pixel of the picture, row by row, in which each pixel of the view lies; -1: in none.
+cv::Mat1i pixels_of(const Optics& optics, const View& view) {
+  const cv::Size size_px = optics.size_px();
+  const Eigen::Matrix2d to_ray = to_view(view).inverse();
+  cv::Mat1i pixels(view.pinhole.height_px, view.pinhole.width_px, -1);
+  for (int y = 0; y < pixels.rows; ++y) {
+    for (int x = 0; x < pixels.cols; ++x) {
+      const Eigen::Vector2d ray = to_ray * (Eigen::Vector2d(x, y) - view.pinhole.centre_px);
+      if (!view.used->contains(ray)) continue;
       const Eigen::Vector2d px = optics.project(ray.homogeneous());
       if (!px.allFinite()) continue;
       const cv::Point pixel(cvRound(px.x()), cvRound(px.y()));
-      if (!cv::Rect({}, size_px).contains(pixel)) continue;
-      pixel_of(y, x) = pixel.y * size_px.width + pixel.x;
-      ++ends[static_cast<std::size_t>(pixel_of(y, x)) + 1];
+      if (cv::Rect({}, size_px).contains(pixel)) {
+        pixels(y, x) = pixel.y * size_px.width + pixel.x;
+      }
     }
   }
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  return pixels;
+}
+
+/// The place in the view of each pixel's middle.
+cv::Mat2f middles_of(const Optics& optics, const View& view) {
+  cv::Mat2f middles(optics.size_px());
+  for (int y = 0; y < middles.rows; ++y) {
+    for (int x = 0; x < middles.cols; ++x) {
+      const Eigen::Vector2f place =
+          (to_view(view) * optics.ray(x, y) + view.pinhole.centre_px).cast<float>();
+      middles(y, x) = {place.x(), place.y()};
+    }
+  }
+  return middles;
+}
+
+}  // namespace
+
+LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int samples) {
+  Sampling sampling{lattice_view(optics, Lattice(samples)), {}, {}, {}};
+  if (!optics.is_pinhole()) sampling.middles = middles_of(optics, sampling.view);
+  const cv::Mat1i pixels = pixels_of(optics, sampling.view);
+  const cv::Size size_px = optics.size_px();
+  std::vector<int> counts(static_cast<std::size_t>(size_px.area()), 0);
+  for (const int pixel : pixels) {
+    if (pixel >= 0) ++counts[static_cast<std::size_t>(pixel)];
+  }
+  std::vector<int>& ends = sampling.ends;
+  ends.assign(1, 0);
+  // a lens's pixel may have no point if there is one to a pixel: it takes the one nearest to its
+  // middle
+  for (const int count : counts) ends.push_back(ends.back() + std::max(count, 1));
   sampling.points.resize(static_cast<std::size_t>(ends.back()));
   std::vector<int> next(ends.begin(), ends.end() - 1);
-  for (int y = 0; y < size.y(); ++y) {
-    for (int x = 0; x < size.x(); ++x) {
-      if (pixel_of(y, x) < 0) continue;
-      const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(pixel_of(y, x))]++);
-      sampling.points[place] = (size.y() - 1 - y) * size.x() + x;  // rendered bottom row first
+  const auto add = [&](std::size_t pixel, int x, int y) {  // rendered bottom row first
+    sampling.points[static_cast<std::size_t>(next[pixel]++)] =
+        (pixels.rows - 1 - y) * pixels.cols + x;
+  };
+  for (int y = 0; y < pixels.rows; ++y) {
+    for (int x = 0; x < pixels.cols; ++x) {
+      if (pixels(y, x) >= 0) add(static_cast<std::size_t>(pixels(y, x)), x, y);
     }
   }
-  if (optics.is_pinhole()) return sampling;
-  sampling.middles.create(size_px);
-  for (int y = 0; y < size_px.height; ++y) {
-    for (int x = 0; x < size_px.width; ++x) {
-      const Eigen::Vector2f place = (to_lattice * optics.ray(x, y) + centre.matrix()).cast<float>();
-      sampling.middles(y, x) = {place.x(), place.y()};
-    }
+  for (std::size_t pixel = 0; pixel < counts.size(); ++pixel) {
+    if (counts[pixel] > 0) continue;
+    const cv::Vec2f& middle = sampling.middles(static_cast<int>(pixel) / size_px.width,
+                                               static_cast<int>(pixel) % size_px.width);
+    add(pixel, cvRound(middle[0]), cvRound(middle[1]));
   }
   return sampling;
 }
@@ -180,20 +214,28 @@ void LensRenderer::mean_of_samples(const cv::Mat4w& codes, cv::Mat3f& light) con
   const float* const light_of = light_of_codes16().data();
   const cv::Vec4w* const all = codes[0];
   light.create(size_px_);
-  const int* point = sampling_.points.data();
-  const int* end = sampling_.ends.data();
-  for (cv::Vec3f& pixel : light) {
-    const int count = end[1] - end[0];
-    ++end;
-    float red = 0, green = 0, blue = 0;
-    for (int i = 0; i < count; ++i) {
-      const cv::Vec4w& code = all[*point++];
-      red += light_of[code[0]];
-      green += light_of[code[1]];
-      blue += light_of[code[2]];
+  const auto mean_of_row = [&](int y, const cv::Range& columns) {
+    const int* end = sampling_.ends.data() + y * light.cols + columns.start;
+    const int* point = sampling_.points.data() + *end;
+    for (int x = columns.start; x < columns.end; ++x, ++end) {
+      const int count = end[1] - end[0];
+      float red = 0, green = 0, blue = 0;
+      for (int i = 0; i < count; ++i) {
+        const cv::Vec4w& code = all[*point++];
+        red += light_of[code[0]];
+        green += light_of[code[1]];
+        blue += light_of[code[2]];
+      }
+      const float share = 1 / static_cast<float>(count);
+      light(y, x) = {share * blue, share * green, share * red};
     }
-    const float share = 1 / static_cast<float>(count);
-    pixel = {share * blue, share * green, share * red};
+  };
+  // by tiles, whose part of the turned lattice stays in the processor's cache
+  for (int top = 0; top < light.rows; top += kTile_px) {
+    for (int left = 0; left < light.cols; left += kTile_px) {
+      const cv::Range columns(left, std::min(left + kTile_px, light.cols));
+      for (int y = top; y < std::min(top + kTile_px, light.rows); ++y) mean_of_row(y, columns);
+    }
   }
 }
 

@@ -61,15 +61,14 @@ cv::Mat3f to_linear(const cv::Mat3b& picture) {
 void to_codes(const cv::Mat3f& linear, cv::Mat3b& picture) {
   picture.create(linear.size());
   const Curve& table = curve();
+  std::vector<int> bins(static_cast<std::size_t>(3 * linear.cols));
   for (int y = 0; y < linear.rows; ++y) {
-    const cv::Vec3f* from = linear[y];
-    cv::Vec3b* to = picture[y];
-    for (int x = 0; x < linear.cols; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const float bin = std::clamp(from[x][c], 0.F, 1.F) * kBins + 0.5F;
-        to[x][c] = table.code[static_cast<std::size_t>(bin)];
-      }
-    }
+    const float* from = linear[y]->val;
+    std::transform(from, from + bins.size(), bins.begin(), [](float light) {
+      return static_cast<int>(std::clamp(light, 0.F, 1.F) * kBins + 0.5F);
+    });
+    std::transform(bins.begin(), bins.end(), picture[y]->val,
+                   [&](int bin) { return table.code[static_cast<std::size_t>(bin)]; });
   }
 }
 

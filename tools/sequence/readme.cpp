@@ -79,7 +79,9 @@ coordinates of a point in B to those in A.
 | C, camera | x right, y down, z forward |
 
 {camera}
-Pixels: x right, y down, (0, 0) is the centre of the top-left one. {shutter}
+Pixels: x right, y down, (0, 0) is the centre of the top-left one. Their values are sRGB codes of linear light,
+the mean of {samples} points of the pixel behind a lens that spreads a point by {spread:.3g} px (standard deviation).
+Depth, masks, boxes and flow are of the pixel's middle. {shutter}
 
 Frames count from 0 (in MOTChallenge's and COCO's files from 1). Times are nanoseconds, {epoch} at the
 first frame, which is time 0 of the simulation: frame k is at {epoch} + round(k * 10^9 / {rate}).
@@ -96,6 +98,8 @@ Of the IMU {reading}.
       fmt::arg("camera", camera_text(lens)),
       fmt::arg("origin", info.calibration.on_ground ? "origin on the ground below its middle"
                                                     : "origin at the IMU"),
+      fmt::arg("samples", s.image.samples),
+      fmt::arg("spread", std::hypot(s.image.point_spread_px, s.image.blur_px)),
       fmt::arg("epoch", kEpoch_ns), fmt::arg("shutter", shutter_text(s.camera)),
       fmt::arg("clocks", clocks_text(s.camera)), fmt::arg("reading", reading_text(s.imu)));
 }
