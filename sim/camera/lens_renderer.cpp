@@ -115,7 +115,7 @@ View lattice_view(const Optics& optics, const Lattice& lattice) {
   if (size.maxCoeff() > kMostSide_px) {
     throw input::Error(optics.lens().source,
                        "camera.{}: the picture would be made of {} x {} samples (at most {} a "
-                       "side); make camera.size smaller{}",
+                       "side); make camera.size smaller{}, or image.samples",
                        optics.is_pinhole() ? "size" : "distortion", size.x(), size.y(),
                        kMostSide_px, optics.is_pinhole() ? "" : ", or the field of view");
   }

@@ -43,7 +43,7 @@ using test::run_lcs;
 const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
 constexpr int kFrames = 4;
 // A start far enough back that both movers are in view from the first frame on.
-const std::vector<std::string> kSets{"ego.start=[-3 m, 0 m]"};
+const std::vector<std::string> kSets{"ego.start=[-3 m, 0 m]", "image.samples=1"};
 
 std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> files;

@@ -34,9 +34,11 @@ const fs::path kScenarios = LCS_SCENARIOS_DIR;
 
 class GeneratedReplay : public testing::Test {
  protected:
+  /// With one sample a pixel: a replay has the same bits however pictures are made.
   void make(const std::string& command, const std::string& scenario,
             const std::vector<std::string>& sets, std::vector<std::string> more) {
-    std::vector<std::string> arguments{command, kScenarios / scenario, "--quiet"};
+    std::vector<std::string> arguments{command, kScenarios / scenario, "--quiet", "--set",
+                                       "image.samples=1"};
     for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CommandResult result = run_lcs(arguments, {.folder = home_.path()});
