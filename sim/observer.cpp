@@ -241,8 +241,22 @@ Observer::Drawing Observer::draw_through_shutter(const FrameState& frame, int in
   const Shutter& shutter = passage_.shutter();
   const ScenePoses present = world_.stage();
   world_.show(frame.stages[Shutter::kMiddle]);
-  const Drawing middle = draw(true);
-  const double shift = shift_px(frame, middle.depth_m, middle.geom);
+  Drawing seen;
+  if (shutter.rolls()) {  // each row comes from its own drawing
+    renderer_.update();
+    renderer_.render_depth_and_geoms(seen.depth_m, seen.geom);
+    seen.even.create(seen.geom.size());
+    seen.light = seen.even;
+    if (scenario_.image.shadows) {
+      seen.light = cv::Mat3f(seen.geom.size());
+      seen.shadow_edge.create(seen.geom.size());
+    }
+  } else {
+    seen = draw(true);
+  }
+  // a picture of its own: `zeros` would be written over `even`
+  if (shutter.smears()) seen.light = cv::Mat3f(seen.geom.size(), cv::Vec3f::all(0));
+  const double shift = shift_px(frame, seen.depth_m, seen.geom);
   const int n = Shutter::drawings_for(shift);
   if (shift > n * Shutter::kMostShift_px) {
     world_.warnings().add(Warning::coarse_shutter,
@@ -250,14 +264,6 @@ Observer::Drawing Observer::draw_through_shutter(const FrameState& frame, int in
                                       "and is drawn at {} instants, {:.2f} px apart",
                                       index, shift, n, shift / n));
   }
-  Drawing seen;  // whole, with the rows of the middle until they are replaced
-  const auto copy = [](const auto& from) { return from.empty() ? from : from.clone(); };
-  seen.even = copy(middle.even);
-  seen.light = copy(middle.light);
-  seen.depth_m = copy(middle.depth_m);
-  seen.geom = copy(middle.geom);
-  seen.shadow_edge = copy(middle.shadow_edge);
-  if (shutter.smears()) seen.light.setTo(0);
   for (int i = 0; i < n; ++i) {
     std::vector<int> own;  // rows whose time is in this cell: they are next to each other
     for (int y = 0; y < seen.even.rows && shutter.rolls(); ++y) {

@@ -25,24 +25,12 @@ constexpr int kMostSide_px = 1 << 14;  // of Mesa's pictures
 struct Lattice {
   int a, b;
 
-  explicit Lattice(int samples) {
-    switch (samples) {
-      case 1:
-        a = 1, b = 0;
-        break;
-      case 4:
-        a = 2, b = 0;
-        break;
-      case 5:
-        a = 2, b = 1;
-        break;
-      case 9:
-        a = 3, b = 0;
-        break;
-      default:
-        throw std::invalid_argument(
-            fmt::format("{} samples of a pixel; 1, 4, 5 or 9 are possible", samples));
+  static Lattice of(int samples) {
+    for (const Lattice& lattice : {Lattice{1, 0}, {2, 0}, {2, 1}, {3, 0}}) {
+      if (lattice.samples() == samples) return lattice;
     }
+    throw std::invalid_argument(
+        fmt::format("{} samples of a pixel; 1, 4, 5 or 9 are possible", samples));
   }
   int samples() const { return a * a + b * b; }
   Eigen::Matrix2d from_px() const { return (Eigen::Matrix2d() << a, -b, b, a).finished(); }
@@ -166,7 +154,7 @@ cv::Mat2f middles_of(const Optics& optics, const View& view) {
 }  // namespace
 
 LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int samples) {
-  Sampling sampling{lattice_view(optics, Lattice(samples)), {}, {}, {}};
+  Sampling sampling{lattice_view(optics, Lattice::of(samples)), {}, {}, {}};
   if (!optics.is_pinhole()) sampling.middles = middles_of(optics, sampling.view);
   const cv::Mat1i pixels = pixels_of(optics, sampling.view);
   const cv::Size size_px = optics.size_px();

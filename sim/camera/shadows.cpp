@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "sim/truth/inner_pixels.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -22,24 +24,6 @@ cv::Mat1f shares_of(const cv::Mat3f& even, const cv::Mat3f& shaded) {
                    return sum(lit) > 0 ? sum(dark) / sum(lit) : 1;
                  });
   return share;
-}
-
-/// 1 where all eight neighbours show the same geom.
-cv::Mat1b inner_pixels(const cv::Mat1i& geom) {
-  cv::Mat1b inner(geom.size(), uchar{0});
-  for (int y = 1; y + 1 < geom.rows; ++y) {
-    for (int x = 1; x + 1 < geom.cols; ++x) {
-      if (geom(y, x) < 0) continue;
-      bool is_alike = true;
-      for (int row = y - 1; row <= y + 1; ++row) {
-        for (int column = x - 1; column <= x + 1; ++column) {
-          is_alike &= geom(row, column) == geom(y, x);
-        }
-      }
-      inner(y, x) = is_alike;
-    }
-  }
-  return inner;
 }
 
 void take_speckles_away(const cv::Mat3f& even, const cv::Mat1i& geom, const cv::Mat1b& inner,
@@ -76,7 +60,9 @@ void take_speckles_away(const cv::Mat3f& even, const cv::Mat1i& geom, const cv::
 }  // namespace
 
 cv::Mat1b clean_shadows(const cv::Mat3f& even, const cv::Mat1i& geom, cv::Mat3f& shaded) {
-  const cv::Mat1b inner = inner_pixels(geom);
+  cv::Mat1b inner = inner_pixels(geom);
+  inner.setTo(0, geom < 0);
+  cv::rectangle(inner, cv::Rect({}, inner.size()), 0);  // the outermost lack neighbours
   take_speckles_away(even, geom, inner, shaded);
   const cv::Mat1f share = shares_of(even, shaded);
   cv::Mat1b edge(geom.size(), uchar{0});

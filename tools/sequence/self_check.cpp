@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/camera/linear_light.h"
+#include "sim/truth/inner_pixels.h"
 #include "tools/sequence/flow_code.h"
 #include "tools/sequence/objects.h"
 
@@ -95,17 +96,6 @@ std::optional<double> plane_inverse_depth(const sim::Optics& camera, const sim::
   return plane.dot(camera.back_project(px, 1));
 }
 
-/// 1 where the pixels beside show the same geom, so that the pixel shows no other surface.
-cv::Mat1b inner_pixels(const cv::Mat1i& geom) {
-  cv::Mat1f ids, least, most;
-  geom.convertTo(ids, CV_32F);
-  cv::erode(ids, least, {});
-  cv::dilate(ids, most, {});
-  cv::Mat1b inner;
-  cv::compare(least, most, inner, cv::CMP_EQ);
-  return inner;
-}
-
 cv::Mat1b grey_of(const cv::Mat3f& light) {
   cv::Mat3b codes;
   cv::Mat1b grey;
@@ -167,7 +157,8 @@ Agreement check_picture(const sim::Observation& now, const sim::Observation& nex
   const cv::Mat1b grey = grey_of(now.rendered), next_grey = grey_of(next.rendered);
   cv::erode(next_grey, darkest, {});
   cv::dilate(next_grey, brightest, {});
-  const cv::Mat1b now_inner = inner_pixels(now.geom), next_inner = inner_pixels(next.geom);
+  const cv::Mat1b now_inner = sim::inner_pixels(now.geom),
+                  next_inner = sim::inner_pixels(next.geom);
 
   /// A compared pixel: its grey level, and the range of levels round its goal.
   struct Compared {
