@@ -22,6 +22,44 @@ void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const V
   }
 }
 
+std::pair<Vector2d, double> at_wall(const Vector2d& half_m, int wall, double along, double off_m) {
+  const double x = half_m.x(), y = half_m.y();
+  switch (wall) {
+    case 0:
+      return {{along * x, y - off_m}, 0};
+    case 1:
+      return {{along * x, -y + off_m}, std::numbers::pi};
+    case 2:
+      return {{x - off_m, along * y}, -std::numbers::pi / 2};
+    default:
+      return {{-x + off_m, along * y}, std::numbers::pi / 2};
+  }
+}
+
+void line_walls(Kit& kit, const std::vector<std::string>& kinds, int count,
+                const Vector2d& half_m) {
+  constexpr int kTries = 8;
+  for (int i = 0; i < count; ++i) {
+    const Thing thing = make_thing(kit, kit.draw.pick(kinds));
+    const double depth = kit.bounds(thing.parts).half_m.y() + 0.06;
+    for (int n = 0; n < kTries; ++n) {
+      const int wall = kit.draw.whole(0, 3);
+      const auto [at, heading] = at_wall(half_m, wall, kit.draw.between(-0.85, 0.85), depth);
+      if (kit.try_stand({thing, at, heading})) break;
+    }
+  }
+}
+
+void hang(Kit& kit, int count, const Vector2d& half_m) {
+  for (int i = 0; i < count; ++i) {
+    const Thing lamp = hanging(kit, kit.ceiling_m, kit.draw.between(1.5, kit.ceiling_m - 0.35));
+    kit.try_stand(
+        {lamp,
+         {kit.draw.between(-0.6, 0.6) * half_m.x(), kit.draw.between(-0.6, 0.6) * half_m.y()},
+         kit.draw.between(0, std::numbers::pi)});
+  }
+}
+
 int pale(Kit& kit, double low, double high) {
   const double grey = kit.draw.between(low, high);
   return kit.plain({grey, grey * kit.draw.between(0.94, 1), grey * kit.draw.between(0.88, 1)});
@@ -42,18 +80,37 @@ int floor_surface(Kit& kit, const std::vector<Style>& styles) {
 }
 
 void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
-  const double x = half_m.x(), y = half_m.y();
   const int one = wall_surface(kit);
   const int other = kit.draw.chance(0.3) ? wall_surface(kit) : one;
-  // each from right to left as seen from inside, so that its thickness lies outside
-  kit.wall({x, -y}, {-x, -y}, height_m, one);
-  kit.wall({-x, y}, {x, y}, height_m, one);
-  kit.wall({x, y}, {x, -y}, height_m, other);
-  kit.wall({-x, -y}, {-x, y}, height_m, other);
   const int ceiling =
       kit.draw.chance(0.7) ? pale(kit, 0.6, 0.95) : kit.wide_surface({Style::tiles, Style::wood});
+  enclose(kit, half_m, height_m, {other, one, ceiling});
+}
+
+void enclose(Kit& kit, const Vector2d& half_m, double height_m, const Shell& materials) {
+  const auto& [across_x, across_y, ceiling] = materials;
+  const double x = half_m.x(), y = half_m.y();
+  // each from right to left as seen from inside, so that its thickness lies outside
+  kit.wall({x, -y}, {-x, -y}, height_m, across_y);
+  kit.wall({-x, y}, {x, y}, height_m, across_y);
+  kit.wall({x, y}, {x, -y}, height_m, across_x);
+  kit.wall({-x, -y}, {-x, y}, height_m, across_x);
   kit.ceiling_m = height_m;
   kit.fix({{kit.block({{2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling})}, {0, 0}, 0, false});
+}
+
+void skirt(Kit& kit, const Vector2d& half_m) {
+  const int skirting = kit.plain();
+  for (const double side : {-1.0, 1.0}) {
+    kit.fix({{kit.block({{2 * half_m.x(), 0.02, 0.08}, {0, 0, 0}, skirting})},
+             {0, side * (half_m.y() - 0.01)},
+             0,
+             false});
+    kit.fix({{kit.block({{0.02, 2 * half_m.y(), 0.08}, {0, 0, 0}, skirting})},
+             {side * (half_m.x() - 0.01), 0},
+             0,
+             false});
+  }
 }
 
 void maybe_strew(Kit& kit, const Vector2d& low_m, const Vector2d& high_m) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/worlds/kit.h"
@@ -54,6 +55,10 @@ Thing make_thing(Kit& kit, const std::string& kind);
 Thing carton(Kit& kit, const Vector3d& size_m);
 /// Boards between uprights, with goods on them; length along x.
 Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack);
+/// A door in its frame, flush with a wall along x; the room is towards -y.
+Parts door(Kit& kit, int leaf, int frame);
+/// A picture or window in its frame, against a wall along x.
+Parts framed(Kit& kit, const Vector2d& size_m, double foot_m, int face, int frame);
 /// A thing that hangs from a ceiling of that height.
 Thing hanging(Kit& kit, double ceiling_m, double foot_m);
 ///@}
@@ -80,13 +85,27 @@ FloorPlan lay_out_garage(Kit& kit);
 /// Places up to `count` things at random free positions of a rectangle.
 void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& low_m,
              const Vector2d& high_m);
+/// Places up to `count` things at free positions along the walls at x and y of +-half.
+void line_walls(Kit& kit, const std::vector<std::string>& kinds, int count, const Vector2d& half_m);
+/// Hangs up to `count` lamps and boards from the ceiling.
+void hang(Kit& kit, int count, const Vector2d& half_m);
+/// Position and heading of what stands `off_m` from one of those four walls, with its back to it.
+/// \param along from -1 to 1.
+std::pair<Vector2d, double> at_wall(const Vector2d& half_m, int wall, double along, double off_m);
 /// A plain colour or a texture.
 int wall_surface(Kit& kit);
 int floor_surface(Kit& kit, const std::vector<Style>& styles);
+/// Materials of a room's walls, across x and across y, and of its ceiling.
+struct Shell {
+  int across_x, across_y, ceiling;
+};
 /// A grey, possibly with a slight tint.
 int pale(Kit& kit, double low, double high);
-/// Four walls at x and y of +-half, and a ceiling.
+/// Four walls at x and y of +-half, and a ceiling: of random surfaces, or of these.
 void enclose(Kit& kit, const Vector2d& half_m, double height_m);
+void enclose(Kit& kit, const Vector2d& half_m, double height_m, const Shell& materials);
+/// Skirting at the foot of those walls.
+void skirt(Kit& kit, const Vector2d& half_m);
 /// Randomly adds grass, or leaves and stones, off the paths. Call it in `furnish`.
 void maybe_strew(Kit& kit, const Vector2d& low_m, const Vector2d& high_m);
 /// Randomly adds shadows on the floor.

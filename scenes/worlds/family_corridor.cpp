@@ -5,25 +5,6 @@
 #include "scenes/worlds/families.h"
 
 namespace lcs::worlds {
-namespace {
-
-/// A door in its frame, flush with a wall along x; the room is towards -y.
-Parts door(Kit& kit, int leaf, int frame) {
-  Draw& d = kit.draw;
-  Parts parts{
-      kit.block({{0.06, 0.12, 2.1}, {-0.48, 0, 0}, frame}),
-      kit.block({{0.06, 0.12, 2.1}, {0.48, 0, 0}, frame}),
-      kit.block({{1.02, 0.12, 0.07}, {0, 0, 2.1}, frame}),
-      kit.block({{0.9, 0.04, 2.08}, {0, 0, 0.01}, leaf}),
-      kit.bar({{0.36, -0.06, 1.02}, {0.26, -0.06, 1.02}, 0.012, kit.plain({0.7, 0.7, 0.7})})};
-  if (d.chance(0.6)) {
-    parts.push_back(
-        kit.block({{0.22, 0.02, 0.12}, {0, -0.03, 1.55}, kit.surface({Style::lettering})}));
-  }
-  return parts;
-}
-
-}  // namespace
 
 FloorPlan lay_out_corridor(Kit& kit) {
   Draw& d = kit.draw;

@@ -1,6 +1,4 @@
 // A room: furniture and pictures along its walls, lamps, and things in the middle.
-#include <numbers>
-
 #include "scenes/worlds/families.h"
 
 namespace lcs::worlds {
@@ -16,30 +14,7 @@ FloorPlan lay_out_room(Kit& kit) {
                                 Style::concrete, Style::worn}),
             half);
   enclose(kit, half, height);
-  const int skirting = kit.plain();
-  for (const double side : {-1.0, 1.0}) {
-    kit.fix({{kit.block({{2 * half.x(), 0.02, 0.08}, {0, 0, 0}, skirting})},
-             {0, side * (half.y() - 0.01)},
-             0,
-             false});
-    kit.fix({{kit.block({{0.02, 2 * half.y(), 0.08}, {0, 0, 0}, skirting})},
-             {side * (half.x() - 0.01), 0},
-             0,
-             false});
-  }
-
-  const auto at_wall = [&kit, half](int wall, double along, double off) {
-    switch (wall) {
-      case 0:
-        return std::pair(Vector2d(along * half.x(), half.y() - off), 0.0);
-      case 1:
-        return std::pair(Vector2d(along * half.x(), -half.y() + off), std::numbers::pi);
-      case 2:
-        return std::pair(Vector2d(half.x() - off, along * half.y()), -std::numbers::pi / 2);
-      default:
-        return std::pair(Vector2d(-half.x() + off, along * half.y()), std::numbers::pi / 2);
-    }
-  };
+  skirt(kit, half);
   // windows, posters and boards are parts of the walls
   for (int i = d.whole(0, 7); i > 0; --i) {
     const double w = d.between(0.4, 1.4), h = d.between(0.3, 1.1);
@@ -49,12 +24,8 @@ FloorPlan lay_out_room(Kit& kit) {
     const int frame = kit.plain();
     const double z = d.between(0.9, height - h - 0.1);
     const int wall = d.whole(0, 3);
-    const auto [at, heading] = at_wall(wall, d.between(-0.8, 0.8), 0.01);
-    kit.fix({{kit.block({{w, 0.03, h}, {0, 0, z}, frame}),
-              kit.block({{w - 0.08, 0.04, h - 0.08}, {0, 0, z + 0.04}, face})},
-             at,
-             heading,
-             false});
+    const auto [at, heading] = at_wall(half, wall, d.between(-0.8, 0.8), 0.01);
+    kit.fix({framed(kit, {w, h}, z, face, frame), at, heading, false});
   }
 
   FloorPlan layout;
@@ -70,29 +41,17 @@ FloorPlan lay_out_room(Kit& kit) {
                     .high_m = half - Vector2d(0.1, 0.1),
                     .fastest_mps = 2.5,
                     .farthest_m = 1.4 * half.x()};
-  layout.furnish = [&kit, &d, half, height, at_wall] {
-    for (int i = d.whole(5, 12); i > 0; --i) {
-      const Thing thing =
-          make_thing(kit, d.pick({"shelf", "shelf", "cupboard", "table", "bin", "plant", "ladder",
-                                  "statue", "chair", "pole", "carton"}));
-      const double depth = kit.bounds(thing.parts).half_m.y() + 0.06;
-      for (int n = 0; n < 8; ++n) {
-        const int wall = d.whole(0, 3);
-        const auto [at, heading] = at_wall(wall, d.between(-0.85, 0.85), depth);
-        if (kit.try_stand({thing, at, heading})) break;
-      }
-    }
+  layout.furnish = [&kit, &d, half] {
+    line_walls(kit,
+               {"shelf", "shelf", "cupboard", "table", "bin", "plant", "ladder", "statue", "chair",
+                "pole", "carton"},
+               d.whole(5, 12), half);
     const Vector2d inner = half - Vector2d(0.3, 0.3);
     scatter(kit,
             {"table", "chair", "carton", "ball", "drum", "plant", "bin", "cart", "sack", "person",
              "pole", "statue", "robot"},
             d.whole(3, 10), -inner, inner);
-    for (int i = d.whole(0, 3); i > 0; --i) {
-      const Thing lamp = hanging(kit, height, d.between(1.5, height - 0.35));
-      kit.try_stand({lamp,
-                     {d.between(-0.6, 0.6) * half.x(), d.between(-0.6, 0.6) * half.y()},
-                     d.between(0, std::numbers::pi)});
-    }
+    hang(kit, d.whole(0, 3), half);
     maybe_shadows(kit, -inner, inner);
   };
   return layout;

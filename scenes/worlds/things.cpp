@@ -560,6 +560,26 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
   return {is_rack ? "rack" : "shelf", parts};
 }
 
+Parts door(Kit& kit, int leaf, int frame) {
+  Parts parts{
+      kit.block({{0.06, 0.12, 2.1}, {-0.48, 0, 0}, frame}),
+      kit.block({{0.06, 0.12, 2.1}, {0.48, 0, 0}, frame}),
+      kit.block({{1.02, 0.12, 0.07}, {0, 0, 2.1}, frame}),
+      kit.block({{0.9, 0.04, 2.08}, {0, 0, 0.01}, leaf}),
+      kit.bar({{0.36, -0.06, 1.02}, {0.26, -0.06, 1.02}, 0.012, kit.plain({0.7, 0.7, 0.7})})};
+  if (kit.draw.chance(0.6)) {
+    parts.push_back(
+        kit.block({{0.22, 0.02, 0.12}, {0, -0.03, 1.55}, kit.surface({Style::lettering})}));
+  }
+  return parts;
+}
+
+Parts framed(Kit& kit, const Vector2d& size_m, double foot_m, int face, int frame) {
+  const double w = size_m.x(), h = size_m.y();
+  return {kit.block({{w, 0.03, h}, {0, 0, foot_m}, frame}),
+          kit.block({{w - 0.08, 0.04, h - 0.08}, {0, 0, foot_m + 0.04}, face})};
+}
+
 Thing hanging(Kit& kit, double ceiling_m, double foot_m) {
   kit.tag("hanging");
   const int cord = kit.plain({0.15, 0.15, 0.15});
