@@ -54,7 +54,8 @@ Thing make_thing(Kit& kit, const std::string& kind);
 ///@{
 Thing carton(Kit& kit, const Vector3d& size_m);
 /// Boards between uprights, with goods on them; length along x.
-Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack);
+/// \param emptiness share of places without goods.
+Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack, double emptiness = 0.2);
 /// A door in its frame, flush with a wall along x; the room is towards -y.
 Parts door(Kit& kit, int leaf, int frame);
 /// A picture or window in its frame, against a wall along x.
@@ -79,6 +80,7 @@ FloorPlan lay_out_warehouse(Kit& kit);
 FloorPlan lay_out_street(Kit& kit);
 FloorPlan lay_out_yard(Kit& kit);
 FloorPlan lay_out_garage(Kit& kit);
+FloorPlan lay_out_plain(Kit& kit);
 
 /// \name Shared by several layouts.
 ///@{

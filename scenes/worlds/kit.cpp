@@ -56,7 +56,7 @@ Kit::Kit(std::string_view family, std::uint64_t seed, int attempt,
   world.seed = seed;
   world.attempt = attempt;
   world.scenario.seed = seed;
-  weather_levels_ = draw.scaled(kLeastWeather_levels, kMostWeather_levels);
+  weather_levels = draw.scaled(kLeastWeather_levels, kMostWeather_levels);
 }
 
 int Kit::plain(const Vector3d& rgb, double alpha, double emission) {
@@ -65,9 +65,9 @@ int Kit::plain(const Vector3d& rgb, double alpha, double emission) {
 }
 
 int Kit::plain() {
-  const double grey = draw.between(0.2, 0.9), tint = draw.between(0, 0.25);
+  const double grey = draw.between(0.2, 0.9), most = draw.between(0, tint);
   Vector3d rgb;
-  for (int i = 0; i < 3; ++i) rgb[i] = std::clamp(grey + draw.between(-tint, tint), 0.05, 1.0);
+  for (int i = 0; i < 3; ++i) rgb[i] = std::clamp(grey + draw.between(-most, most), 0.05, 1.0);
   return plain(rgb);
 }
 
@@ -107,7 +107,8 @@ int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
       fmt::format("{}_{}", from_file ? "photograph" : name_of(style), material.texture);
   cv::Mat3b picture =
       from_file ? photograph(pictures_, pixels, brush) : worlds::paint(style, pixels, brush);
-  if (!from_file && style != Style::plain) weather(picture, weather_levels_, brush);
+  if (!from_file && style != Style::plain) weather(picture, weather_levels, brush);
+  if (contrast < 1) fade(picture, contrast);
   world.textures.push_back({name, picture});
   world.materials.push_back(material);
   const int place = static_cast<int>(world.materials.size()) - 1;

@@ -77,8 +77,11 @@ class Kit {
   std::vector<TurnedBox> kept_free;  ///< paths of the rover and the movers
   /// Height of the ground.
   std::function<double(const Vector2d&)> ground = [](const auto&) { return 0.0; };
-  double ceiling_m = 100;  ///< its height; large without a ceiling
-  double plainness = 0;    ///< share of things without texture
+  double ceiling_m = 100;     ///< its height; large without a ceiling
+  double plainness = 0;       ///< share of things without texture
+  double tint = 0.25;         ///< of random plain colours, at most
+  double contrast = 1;        ///< of textures; below 1 they fade towards their mean colour
+  double weather_levels = 0;  ///< of textures; standard deviation
 
   void tag(std::string_view feature) { world.features.emplace(feature); }
 
@@ -191,7 +194,6 @@ class Kit {
   int add_surface(Style style, bool is_wide, bool is_cube);
 
   std::vector<std::string> pictures_;
-  double weather_levels_ = 0;
   std::map<std::string, int> meshes_by_key_;
   std::map<Style, std::vector<int>> surfaces_;
   std::map<std::string, int> names_;

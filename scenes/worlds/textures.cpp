@@ -460,6 +460,14 @@ void weather(cv::Mat3b& picture, double levels, Draw& draw) {
   lighten(picture, fractal_noise(draw, picture.cols, cells, draw.between(0.75, 1.05)), own);
 }
 
+void fade(cv::Mat3b& picture, double contrast) {
+  cv::Vec3d sum(0, 0, 0);
+  for (const Colour& c : picture) sum += c;
+  const double pixels = static_cast<double>(picture.total());
+  const Colour mean{level(sum[0] / pixels), level(sum[1] / pixels), level(sum[2] / pixels)};
+  for (Colour& c : picture) c = mixed(mean, c, contrast);
+}
+
 std::vector<std::string> pictures_in(const std::string& folder) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;

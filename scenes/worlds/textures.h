@@ -43,6 +43,9 @@ cv::Mat3b paint(Style style, int side_px, Draw& draw);
 /// \param levels standard deviation, in grey levels.
 void weather(cv::Mat3b& picture, double levels, Draw& draw);
 
+/// Reduces the contrast of a picture about its mean colour.
+void fade(cv::Mat3b& picture, double contrast);
+
 /// A random section of one of the picture files.
 /// \throws std::runtime_error for an unreadable picture.
 cv::Mat3b photograph(const std::vector<std::string>& files, int side_px, Draw& draw);

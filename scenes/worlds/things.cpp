@@ -493,9 +493,54 @@ Parts any_carton(Kit& k) {
   return carton(k, {s, s * k.draw.between(0.6, 1), s * k.draw.between(0.5, 1.3)}).parts;
 }
 
-Parts any_shelf(Kit& k) {
+Parts any_shelf(Kit& k, double emptiness) {
   const Vector3d size{k.draw.between(0.7, 1.8), k.draw.between(0.28, 0.45), k.draw.between(1, 2.1)};
-  return shelf(k, size, k.draw.whole(3, 5), false).parts;
+  return shelf(k, size, k.draw.whole(3, 5), false, emptiness).parts;
+}
+
+Parts full_shelf(Kit& k) {
+  return any_shelf(k, 0.2);
+}
+
+Parts bare_shelf(Kit& k) {
+  return any_shelf(k, 0.6);
+}
+
+/// A desk with drawers and a screen; one sits on the side of -y.
+Parts desk(Kit& k) {
+  const double l = k.draw.between(1.1, 1.8), w = k.draw.between(0.6, 0.8), h = 0.72;
+  const int top = k.paint(kWood), frame = k.plain(), dark = k.plain({0.1, 0.1, 0.12});
+  const double drawers = l / 2 - 0.24, screen = k.draw.between(-0.3, 0.3) * l;
+  Parts parts{k.block({{l, w, 0.03}, {0, 0, h}, top}),
+              k.block({{0.4, w - 0.1, h - 0.05}, {drawers, 0, 0.05}, frame}),
+              k.block({{0.03, w - 0.1, h}, {-l / 2 + 0.04, 0, 0}, frame}),
+              k.block({{0.22, 0.16, 0.02}, {screen, w * .25, h + 0.03}, dark}),
+              k.post({0.02, 0.2, {screen, w * .25 + 0.03, h + 0.05}, dark}),
+              k.block({{0.54, 0.03, 0.33}, {screen, w * .25, h + 0.13}, dark})};
+  for (const double z : {0.08, 0.29, 0.5}) {  // protruding fronts
+    parts.push_back(k.block({{0.37, 0.02, 0.19}, {drawers, -w / 2 + 0.05, z}, top}));
+  }
+  return parts;
+}
+
+Parts railing(Kit& k) {
+  const double l = k.draw.between(1, 3), h = k.draw.between(0.85, 1.1);
+  const double r = k.draw.between(0.008, 0.02);
+  const int m = k.plain(), spaces = static_cast<int>(l / k.draw.between(0.12, 0.5)) + 1;
+  Parts parts{k.bar({{-l / 2, 0, h}, {l / 2, 0, h}, 0.025, k.plain()}),
+              k.bar({{-l / 2, 0, 0.1}, {l / 2, 0, 0.1}, r, m})};
+  for (int i = 0; i <= spaces; ++i) {
+    const double foot = i % spaces == 0 ? 0 : 0.1;  // only the outer ones reach the floor
+    parts.push_back(k.post({r, h - foot, {-l / 2 + l * i / spaces, 0, foot}, m}));
+  }
+  return parts;
+}
+
+/// From the floor to the ceiling.
+Parts column(Kit& k) {
+  const double w = k.draw.between(0.12, 0.4), h = k.ceiling_m;
+  if (k.draw.chance(0.5)) return {k.post({w / 2, h, {0, 0, 0}, k.plain()})};
+  return {k.block({{w, w, h}, {0, 0, 0}, k.plain()})};
 }
 
 struct ThingKind {
@@ -510,7 +555,8 @@ constexpr ThingKind kKinds[] = {
     {"pole", pole},       {"sign", sign},       {"lamp", lamp_post},    {"bench", bench},
     {"pallet", pallet},   {"ladder", ladder},   {"statue", statue},     {"sack", sack},
     {"panel", panel},     {"barrier", barrier}, {"robot", robot},       {"forklift", forklift},
-    {"bicycle", bicycle}, {"load", load},       {"carton", any_carton}, {"shelf", any_shelf}};
+    {"bicycle", bicycle}, {"load", load},       {"carton", any_carton}, {"shelf", full_shelf},
+    {"desk", desk},       {"railing", railing}, {"column", column},     {"bare_shelf", bare_shelf}};
 
 }  // namespace
 
@@ -518,7 +564,7 @@ Thing carton(Kit& kit, const Vector3d& size_m) {
   return {"carton", {kit.block({size_m, {0, 0, 0}, kit.paint()})}};
 }
 
-Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
+Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack, double emptiness) {
   kit.tag("shelf");
   const int wood = is_rack ? kit.plain({0.85, 0.4, 0.1}) : kit.paint(kWood);
   const int upright = is_rack ? kit.plain({0.15, 0.25, 0.5}) : wood;
@@ -546,7 +592,7 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
                    d = size_m.y() * kit.draw.between(0.6, 0.95);
       const double kind = kit.draw.between(0, 1);
       const Vector3d at(x + w / 2, 0, foot);
-      if (kind < 0.2) {
+      if (kind < emptiness) {
         // nothing
       } else if (kind < 0.85) {
         parts.push_back(kit.block({{w, d, h}, at, kit.paint(kPrinted)}));

@@ -20,10 +20,16 @@ constexpr double kNear_m = 0.8;
 struct Family {
   const char* name;
   FloorPlan (*lay_out)(Kit&);
+  std::uint64_t static_one_in = 4;
+  const char* noun = name;
 };
-constexpr Family kFamilies[] = {{"room", lay_out_room},           {"corridor", lay_out_corridor},
-                                {"warehouse", lay_out_warehouse}, {"street", lay_out_street},
-                                {"yard", lay_out_yard},           {"garage", lay_out_garage}};
+constexpr Family kFamilies[] = {{"room", lay_out_room},
+                                {"corridor", lay_out_corridor},
+                                {"warehouse", lay_out_warehouse},
+                                {"street", lay_out_street},
+                                {"yard", lay_out_yard},
+                                {"garage", lay_out_garage},
+                                {"plain", lay_out_plain, 3, "plain room"}};
 
 const Family& family_of(const std::string& name) {
   for (const Family& family : kFamilies) {
@@ -130,7 +136,7 @@ bool attempt(Kit& kit, const Family& family, bool with_movers) {
 void name_scenario(DrawnWorld& world, const Choice& choice) {
   scenario::Scenario& s = world.scenario;
   s.name = name_of(world);
-  s.purpose = fmt::format("a {} drawn from seed {}{}", world.family, world.seed,
+  s.purpose = fmt::format("a {} drawn from seed {}{}", family_of(world.family).noun, world.seed,
                           s.actors.empty() ? ", where nothing moves" : "");
   s.groups = {"world", choice.family};
   if (s.actors.empty()) s.groups.emplace_back("static");
@@ -173,8 +179,9 @@ std::vector<Choice> choose(std::string_view split_name, int count, const std::st
 }
 
 bool is_static(const Choice& choice) {
-  const auto place = std::ranges::find(families(), choice.family);
-  return (choice.seed + static_cast<std::uint64_t>(place - families().begin())) % 4 == 3;
+  const Family& family = family_of(choice.family);
+  const auto place = static_cast<std::uint64_t>(&family - kFamilies);
+  return (choice.seed + place) % family.static_one_in == family.static_one_in - 1;
 }
 
 DrawnWorld draw_world(const Choice& choice, const std::vector<std::string>& pictures) {
@@ -186,7 +193,7 @@ DrawnWorld draw_world(const Choice& choice, const std::vector<std::string>& pict
     return std::move(kit.world);
   }
   throw std::runtime_error(fmt::format("no {} could be drawn from seed {}; take another seed",
-                                       choice.family, choice.seed));
+                                       family.noun, choice.seed));
 }
 
 std::string name_of(const DrawnWorld& world) {

@@ -43,7 +43,7 @@ struct Kept {
   std::filesystem::path file;  ///< its scenario; the stem is its name, as "room_7"
 };
 
-/// Whether the world has no movers: one in four.
+/// Whether the world has no movers: one in four, of plain ones one in three.
 bool is_static(const Choice& choice);
 
 /// \param pictures files used for some of the surfaces; may be empty.

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <tuple>
 
+#include "filter/detect/fast.h"
 #include "scenarios/load.h"
 #include "scenes/worlds/kit.h"
 #include "scenes/worlds/meshes.h"
@@ -29,13 +31,14 @@ namespace lcs::worlds {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kWorlds = 60;
+constexpr int kOfEach = 12;
 
-/// The first worlds of `train`, drawn once for all tests.
-const std::vector<DrawnWorld>& sixty() {
+/// The first worlds of each family of `train`, drawn once for all tests.
+const std::vector<DrawnWorld>& drawn_worlds() {
   static const std::vector<DrawnWorld> worlds = [] {
     std::vector<DrawnWorld> all;
-    for (const Choice& choice : choose("train", kWorlds)) all.push_back(draw_world(choice));
+    const int count = kOfEach * static_cast<int>(families().size());
+    for (const Choice& choice : choose("train", count)) all.push_back(draw_world(choice));
     return all;
   }();
   return worlds;
@@ -49,7 +52,7 @@ fs::path written(const DrawnWorld& world, const test::TemporaryFolder& folder) {
 /// One world of each family with movers and a small picture.
 std::vector<DrawnWorld> small_ones() {
   std::map<std::string, DrawnWorld> found;
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     if (world.scenario.actors.empty()) continue;
     const auto [place, is_new] = found.emplace(world.family, world);
     if (world.scenario.camera.width_px < place->second.scenario.camera.width_px) {
@@ -127,7 +130,7 @@ TEST(Worlds, TheScenarioSaysWhatWasDrawn) {
 
 TEST(Worlds, TheScenarioSaysHowItWasDrawn) {
   bool is_any_again = false;
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     if (world.attempt == 0 && is_any_again) continue;
     const test::TemporaryFolder folder;
     const scenario::Origin origin = scenario::load(written(world, folder)).origin.value();
@@ -153,7 +156,7 @@ TEST(Worlds, ANameOfOldMeansAWorld) {
 
 TEST(Worlds, EveryFeatureOccursAtLeastTwice) {
   std::map<std::string, int> count;
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     for (const std::string& feature : world.features) ++count[feature];
   }
   for (const char* feature : {"bare_thing",
@@ -188,23 +191,43 @@ TEST(Worlds, EveryFeatureOccursAtLeastTwice) {
   EXPECT_TRUE(count.empty()) << count.begin()->first << " is in no list";
 }
 
-TEST(Worlds, OneInFourShowsNothingThatMoves) {
-  int still = 0;
-  for (const DrawnWorld& world : sixty()) {
+TEST(Worlds, OneInFourShowsNothingThatMovesAndOfPlainOnesOneInThree) {
+  std::map<std::string, int> still;
+  for (const DrawnWorld& world : drawn_worlds()) {
     const bool is_static = world.scenario.actors.empty();
-    still += is_static;
+    still[world.family] += is_static;
     const auto& groups = world.scenario.groups;
     EXPECT_EQ(std::count(groups.begin(), groups.end(), "static"), is_static);
     EXPECT_EQ(std::count(groups.begin(), groups.end(), world.family), 1);
   }
-  EXPECT_EQ(still, kWorlds / 4);
+  for (const auto& [family, count] : still) {
+    EXPECT_EQ(count, kOfEach / (family == "plain" ? 3 : 4)) << family;
+  }
+}
+
+TEST(Worlds, MostPlainOnesBeginWithFewCornersButSome) {
+  constexpr std::size_t kFewest = 30, kMost = 300;
+  int few = 0;
+  for (const DrawnWorld& world : drawn_worlds()) {
+    if (world.family != "plain") continue;
+    const test::TemporaryFolder folder;
+    const scenario::Scenario scenario = scenario::load(written(world, folder));
+    sim::Simulation simulation(scenario);
+    const auto frame = simulation.next();
+    ASSERT_TRUE(frame);
+    cv::Mat1b grey;
+    cv::cvtColor(frame->image, grey, cv::COLOR_BGR2GRAY);
+    const auto corners = FastDetector(scenario.fast_threshold).detect(grey).size();
+    few += corners >= kFewest && corners <= kMost;
+  }
+  EXPECT_GE(few, 3 * kOfEach / 4);
 }
 
 TEST(Worlds, CamerasAndSensorsAreInTheirRangesAndNeverWithoutNoise) {
   std::set<std::string> imus;
   std::set<int> widths;
   std::set<double> rates;
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     const scenario::Scenario& s = world.scenario;
     ASSERT_TRUE(s.image.noise);
     EXPECT_GE(s.image.noise->read_e, 2);
@@ -258,7 +281,7 @@ TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruthAndRunIntoNothing) {
 /// According to the simulator's poses of the rover and the movers.
 TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
   int movers = 0;
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     if (world.scenario.actors.empty() || ++movers > 12) continue;
     const test::TemporaryFolder folder;
     const sim::Drive drive = sim::drive(scenario::load(written(world, folder)));
@@ -313,7 +336,7 @@ int count_of(const cv::Mat3b& picture, const cv::Vec3b& colour) {
 
 TEST(Sheet, ThePlanHasAPathForWhatMovesAndNoneWhereNothingDoes) {
   const cv::Vec3b moves(255, 0, 255), rover(220, 80, 0);
-  for (const DrawnWorld& world : sixty()) {
+  for (const DrawnWorld& world : drawn_worlds()) {
     const cv::Mat3b picture = preview::plan(world);
     EXPECT_GT(count_of(picture, rover), 5) << name_of(world);
     if (world.scenario.actors.empty()) {
@@ -357,7 +380,7 @@ TEST(Worlds, SplitsAreDisjointAndSpreadOverTheFamilies) {
   std::set<std::uint64_t> seeds;
   for (const Split& split : splits()) {
     std::map<std::string, int> count;
-    for (const Choice& choice : choose(split.name, 60)) {
+    for (const Choice& choice : choose(split.name, 10 * static_cast<int>(families().size()))) {
       ++count[choice.family];
       EXPECT_GE(choice.seed, split.first_seed);
       EXPECT_LE(choice.seed, split.last_seed);
