@@ -8,6 +8,7 @@
 
 #include "tests/scoring/whole_recordings.h"
 #include "tests/tools/recordings.h"
+#include "tools/scoring/score_squares.h"
 
 namespace lcs::scoring {
 namespace {
@@ -577,6 +578,37 @@ TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
   EXPECT_DOUBLE_EQ(get(metrics, "square.recall_50_static"), 1);
   EXPECT_DOUBLE_EQ(get(metrics, "square.mean_iou_movers"), 1);
   EXPECT_DOUBLE_EQ(get(metrics, "square.mean_iou_static"), 32.0 / 48);
+}
+
+/// The object moves visibly in frames 3 to 5, slowly in 6 and 7, and rests in 8. A square covers it
+/// in frames 3, 4, 6 and 8.
+TEST(Squares, OfMoversAreSplitByWhatTheObjectDoesInTheFrame) {
+  const auto made = frames(9, [](test::FrameMaker& frame) {
+    const int k = frame.record().index;
+    const int rebels = k < 5 ? 4 : k == 5 ? 2 : k < 8 ? 1 : 0;  // half of its corners are enough
+    frame.corners(rebels, Verdict::normal, Label::rebel, 1)
+        .corners(4 - rebels, Verdict::normal, k < 8 ? Label::indistinct : Label::fixed, 1)
+        .corners(4, Verdict::normal, Label::fixed, 2)
+        .object(1, kBox, k < 8)
+        .object(2, {300, 100, 340, 150}, false);  // never moves: in none of the three
+    if (k == 3 || k == 4 || k == 6 || k == 8) frame.square(1, kBox);
+  });
+  const Metrics metrics = score(made);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.recall_50_visibly_moving"), 2.0 / 3);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.recall_50_slow"), 1.0 / 2);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.recall_50_resting"), 1);
+
+  SquareScorer scorer;
+  for (const recording::FrameRecord& frame : made.frames) scorer.add(frame);
+  const SquareScore sums = scorer.score();
+  SquareCounts all;
+  for (const SquareCounts& counts : sums.movers_50_by_doing) {
+    all.boxes += counts.boxes;
+    all.matched += counts.matched;
+  }
+  EXPECT_EQ(all.boxes, sums.movers_50.boxes);
+  EXPECT_EQ(all.matched, sums.movers_50.matched);
+  EXPECT_EQ(sums.movers_50.boxes, 6);
 }
 
 /// Two truths that fill their boxes. One square covers its truth except a corner; the other, whose

@@ -146,6 +146,10 @@ SquareScore::Masks masks_of(const Scores& s) {
   return s.squares.masks.value_or(SquareScore::Masks{});
 }
 
+Figure mover_recall(const Scores& s, Doing doing) {
+  return s.squares.movers_50_by_doing[static_cast<std::size_t>(doing)].recall();
+}
+
 /// \param ious with the members of `SquareScore` or of its `Masks`.
 template <class Ious>
 Figure mean_iou(const Ious& ious) {
@@ -171,6 +175,14 @@ std::vector<Metric> square_metrics() {
       {"square.recall_50_movers", [](auto& s) { return s.squares.movers_50.recall(); }, kShare,
        "boxed movers", "square.recall_50 over objects that move at any time in the run",
        kInDetectors},
+      {"square.recall_50_visibly_moving",
+       [](auto& s) { return mover_recall(s, Doing::visibly_moving); }, kShare, "visibly moving",
+       "square.recall_50_movers over the frames in which half or more of the object's moving "
+       "corners are rebels"},
+      {"square.recall_50_slow", [](auto& s) { return mover_recall(s, Doing::slow); }, kShare,
+       "slow", "square.recall_50_movers over the frames in which the object moves by less"},
+      {"square.recall_50_resting", [](auto& s) { return mover_recall(s, Doing::resting); }, kShare,
+       "resting", "square.recall_50_movers over the frames in which the object does not move"},
       {"square.recall_50_static", [](auto& s) { return s.squares.static_50.recall(); }, kShare,
        "boxed static", "square.recall_50 over objects that never move"},
       {"square.mean_iou", [](auto& s) { return mean_iou(s.squares); }, kShare, "IoU",

@@ -33,6 +33,19 @@ std::set<int> eligible_objects(const recording::FrameRecord& frame) {
   return objects;
 }
 
+Doing doing_of(int object, const recording::FrameRecord& frame) {
+  if (!std::ranges::find(frame.object_truth, object, &sim::ObjectTruth::object)->moving) {
+    return Doing::resting;
+  }
+  int visibly = 0, all = 0;
+  for (const sim::CornerTruth& truth : frame.corner_truth) {
+    if (truth.object != object) continue;
+    visibly += truth.label == sim::Label::rebel;
+    all += truth.label == sim::Label::rebel || truth.label == sim::Label::indistinct;
+  }
+  return all > 0 && 2 * visibly >= all ? Doing::visibly_moving : Doing::slow;
+}
+
 /// The overlaps of the squares and objects of one frame, before any threshold.
 struct FrameSquares {
   std::set<int> eligible;         ///< objects
@@ -143,7 +156,9 @@ void SquareScorer::add(const recording::FrameRecord& frame) {
   add_to(sums_.at_30, outcomes_of(squares, 0.3));
   add_to(sums_.at_50, outcomes_of(squares, kRightIou));
   add_to(sums_.at_70, outcomes_of(squares, 0.7));
-  for (const int object : squares.eligible) ++boxes_[object];
+  for (const int object : squares.eligible) {
+    ++boxes_[object][static_cast<std::size_t>(doing_of(object, frame))];
+  }
   std::optional<FrameRegions> regions;
   if (are_masks_known_) {
     regions.emplace(frame);
@@ -154,7 +169,8 @@ void SquareScorer::add(const recording::FrameRecord& frame) {
   }
   for (const BoxPair& pair : squares.pairs) {
     if (pair.iou < kRightIou) continue;
-    pairs_.push_back({pair.box, pair.iou, regions ? regions->iou(pair.box, pair.square) : 0});
+    pairs_.push_back({pair.box, doing_of(pair.box, frame), pair.iou,
+                      regions ? regions->iou(pair.box, pair.square) : 0});
     const auto [last, first_time] = last_square_.try_emplace(pair.box, pair.square);
     sums_.identity_switches += last->second != pair.square;
     last->second = pair.square;
@@ -165,11 +181,16 @@ SquareScore SquareScorer::score() const {
   SquareScore score = sums_;
   if (are_masks_known_) score.masks = masks_;
   for (const auto& [object, boxes] : boxes_) {
-    (movers_.contains(object) ? score.movers_50 : score.static_50).boxes += boxes;
+    const bool mover = movers_.contains(object);
+    for (std::size_t doing = 0; doing < kDoings; ++doing) {
+      (mover ? score.movers_50 : score.static_50).boxes += boxes[doing];
+      if (mover) score.movers_50_by_doing[doing].boxes += boxes[doing];
+    }
   }
   for (const Pair& pair : pairs_) {
     const bool mover = movers_.contains(pair.object);
     ++(mover ? score.movers_50 : score.static_50).matched;
+    if (mover) ++score.movers_50_by_doing[static_cast<std::size_t>(pair.doing)].matched;
     (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
     if (!score.masks) continue;
     (mover ? score.masks->movers_iou : score.masks->static_iou).push_back(pair.mask_iou);

@@ -60,7 +60,7 @@ struct FrameScore {
 };
 
 /// Scores a run frame by frame, in order. It keeps counts, and a few numbers of each frame: about
-/// 120 bytes, and 24 more for each square that is right.
+/// 120 bytes, and 32 more for each square that is right.
 class Scorer {
  public:
   /// Uses the detector and the truth of the run.
