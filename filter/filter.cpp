@@ -13,6 +13,7 @@
 #include "filter/line/line.h"
 #include "filter/radial/radial_movers.h"
 #include "filter/set_layers.h"
+#include "filter/squares/bodies.h"
 #include "filter/squares/square_expert.h"
 #include "filter/stopwatch.h"
 
@@ -26,7 +27,8 @@ struct Filter::Impl {
         edge_expert(c, p.edge, p.circle.trust),
         circle_expert(c, p.circle, p.edge),
         radial(c, p.comers, p.circle, p.edge),
-        square_expert(c, p.square) {
+        square_expert(c, p.square),
+        bodies(c, p.edge, p.circle.trust) {
     validate(c);
     validate(p);
   }
@@ -46,6 +48,7 @@ struct Filter::Impl {
   CircleExpert circle_expert;
   RadialMovers radial;
   SquareExpert square_expert;
+  Bodies bodies;
   FrameResult result;
 };
 
@@ -70,6 +73,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
     edge_expert.forget();
     circle_expert.forget();
     radial.forget();
+    bodies.forget();
     motion.emplace();
   }
   if (!parameters.ground) motion->ground.reset();
@@ -89,6 +93,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
     *motion = as_before;
   } else if (tracked.motion == UsedMotion::none) {
     radial.forget();
+    bodies.forget();
     motion->dt_s = 0;
   }
   const MotionField& field = is_held ? *held : told_field;
@@ -113,7 +118,8 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   }
   result.times.circle_ms = watch.lap_ms();
 
-  const std::vector<Square>& squares = square_expert.step(*edges, *circles, field);
+  const std::vector<Square>& squares =
+      bodies.step(*edges, *circles, square_expert.step(*edges, *circles, field), field);
   result.times.square_ms = watch.lap_ms();
 
   set_layers(*edges, *circles, squares, result.layers);

@@ -25,7 +25,8 @@ struct LabelScore {
   void add(const recording::FrameRecord& frame);
 };
 
-/// Whether the square moves. A square without circles, of a user's detector, counts as moving.
+/// Whether the square moves. A square without circles counts as moving: it is of a user's detector,
+/// or of a body that moved before.
 bool may_move(const Square& square);
 
 struct Scores {
