@@ -60,21 +60,22 @@ void Coupling::tie(const PointGrid& grid, double noise2_px2) {
 }
 
 const std::vector<double>& Coupling::settle(std::span<const Node> nodes,
-                                            const Neighbourhood& around, double noise2_px2) {
+                                            const Neighbourhood& around, double noise2_px2,
+                                            double most) {
   place(nodes, around);
   tie(around.grid(), noise2_px2);
   const std::size_t count = nodes.size();
   const Ties ties = {first_.data(), starts_.data(), weights_.data()};
   std::fill_n(tanh_.begin(), count, 1.0F);
   loops().tied_sums(ties, tanh_.data(), count, sums_.data());
-  const auto beyond = static_cast<float>(kBeyond), most = static_cast<float>(parameters_.coupling);
+  const auto beyond = static_cast<float>(kBeyond), J = static_cast<float>(most);
   copy_over(log_odds_, coupled_);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     loops().half_tanh(coupled_.data(), tanh_.data(), count);
     loops().tied_sums(ties, tanh_.data(), count, pulls_.data());
     for (std::size_t k = 0; k < count; ++k) {
       if (reach2_px2_[k] < 0) continue;
-      coupled_[k] = log_odds_[k] + most * (pulls_[k] - beyond) / (sums_[k] + beyond);
+      coupled_[k] = log_odds_[k] + J * (pulls_[k] - beyond) / (sums_[k] + beyond);
     }
   }
   for (std::size_t k = 0; k < count; ++k) {

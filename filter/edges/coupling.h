@@ -33,10 +33,11 @@ class Coupling {
 
   /// \param around the neighbours of the nodes' places.
   /// \param noise2_px2 variance of a corner's place on an axis, px^2.
+  /// \param most J: the most log odds that neighbours add.
   /// \return m of each node. A node that does not tell takes the m of its nearest node that does,
   ///   if each lies within the other's r; of equally near ones the largest. Else its own log odds.
   const std::vector<double>& settle(std::span<const Node> nodes, const Neighbourhood& around,
-                                    double noise2_px2);
+                                    double noise2_px2, double most);
 
  private:
   void place(std::span<const Node> nodes, const Neighbourhood& around);

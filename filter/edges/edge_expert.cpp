@@ -5,6 +5,7 @@
 
 #include "filter/edges/edge.h"
 #include "filter/edges/gauss.h"
+#include "filter/edges/step.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/vectors/refill.h"
 
@@ -123,27 +124,18 @@ Track EdgeExpert::first_seen(const Chi& chi, std::size_t corner) {
   return track;
 }
 
-/// Log odds of a frame later: the corner may have changed its kind, or its track may have jumped.
+/// Log odds of a frame later: the corner may have changed its kind.
 double EdgeExpert::faded(double log_odds, double dt_s) const {
-  const double turnover = parameters_.turnover(dt_s);
-  return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
+  const double kind = parameters_.kind_turnover(dt_s);
+  return lcs::log_odds(chance(log_odds) * (1 - kind) + parameters_.prior * kind);
 }
 
 /// Density of a moving point's second sighting (MODEL.md (13)).
-double EdgeExpert::first_step(const Track& track, const Vec2& x_px,
-                              const DepthBounds& bounds) const {
+double EdgeExpert::first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
+                              double noise2_px2) const {
   const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);
-  const double length = parallax.norm();
-  const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
-  const Vec2 step = x_px - track.place_px;
-  const double segment = (bounds.most_pm - bounds.least_pm) * length;
-  const double a = step.dot(along) - bounds.least_pm * length, b = cross(along, step);
-  const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
-  const double reach = association_.reach_px(track.since_s);
-  const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
-  return segment > 1e-6 * s
-             ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
-             : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
+  return Step(x_px - track.place_px, parallax, bounds)
+      .density_of_mover(association_.reach_px(track.since_s), noise2_px2);
 }
 
 /// Updates a track by a sighting. \param chance_ppx2 `Association::chance_ppx2`.
@@ -152,35 +144,55 @@ bool EdgeExpert::update(Track& track, const Vec2& x_px, double chance_ppx2,
                         const MotionField& field) {
   const DepthBounds bounds = depth_bounds(field, x_px);
   const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
+  const double kind = parameters_.kind_turnover(field.dt_s());
   const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
+  const double noise2 = track.noise.variance_px2(noise2_px2_, parameters_.neighbours);
+  // At the first step the error of the velocity is added, which its prediction omits.
+  const double first2 =
+      noise2 + std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
   StaticPoint seen = track.as_static;
-  double noise2_px2 = noise2_px2_, moving = 0, before = 0;
+  double still = seen.update(x_px, track.has_motion() ? noise2 : first2, bounds);
+  double moving = 0, before = 0;
   if (!track.has_motion()) {
-    noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
-    moving = first_step(track, x_px, bounds);
+    moving = first_step(track, x_px, bounds, noise2);
     before = lcs::log_odds(parameters_.prior) + parameters_.newcomer;
   } else {
-    moving = track.as_moving.density(x_px, noise2_px2_);
+    moving = track.as_moving.density(x_px, noise2);
     before = faded(track.log_odds, field.dt_s());
   }
-  const double still = seen.update(x_px, noise2_px2, bounds);
+  if (track.log_odds > 0) {
+    // It may have come to rest since its last sighting, at a depth that is not known yet.
+    StaticPoint rested =
+        StaticPoint::seen_once(track.place_px, camera_, field, track.displacement_C_m, noise2);
+    const double anew = rested.update(x_px, first2, bounds), moved = chance(track.log_odds);
+    const double was_still = (1 - moved) * (1 - kind * parameters_.prior) * still;
+    const double rests = moved * kind * (1 - parameters_.prior) * anew;
+    still = (was_still + rests) / (1 - chance(before));
+    if (rests > was_still) seen = rested;
+  }
   if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
   // A wrong match has a uniform density, plus the density of corners that look as good.
   const double none = anywhere + chance_ppx2;
   const double evidence = std::log((right * moving + none) / (right * still + none));
-  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  const double most = parameters_.most_log_odds(field.dt_s());
   track.log_odds = std::clamp(before + evidence, -most, most);
-  // A step of EM: residual and variance of the estimated place are noise, if the match is right.
-  const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
-  noise_sum_px2_ +=
-      stands / 2 *
-      ((x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace());
-  noise_weight_ += stands;
   if (!track.has_motion()) {
-    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
+    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2, track.since_s);
   } else {
-    track.as_moving.update(x_px, noise2_px2_);
+    track.as_moving.update(x_px, noise2);
   }
+  // A step of EM: miss and variance of the estimated place are noise, if the match is right.
+  const double moves = chance(before + evidence);
+  const double stands = (1 - moves) * right * still / (right * still + none);
+  const double miss2 =
+      (x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace();
+  noise_sum_px2_ += stands / 2 * miss2;
+  noise_weight_ += stands;
+  track.noise.fade(right);
+  track.noise.add(miss2, stands);
+  track.noise.add(
+      (x_px - track.as_moving.place_px).squaredNorm() + 2 * track.as_moving.covariance(0, 0),
+      moves * right * moving / (right * moving + none));
   track.as_static = seen;
   track.place_px = x_px;
   track.unseen = 0;
@@ -203,6 +215,24 @@ void EdgeExpert::coast(const MotionField& field) {
   }
 }
 
+/// The log odds of moving that a track shows to its neighbours: of its own sightings, unless it may
+/// be a crossing, which moves as no point does (MODEL.md (20)).
+double EdgeExpert::shown(const Track& track, const MotionField& field) const {
+  // Surely static corners are not asked.
+  if (!track.has_motion() || track.log_odds < -kFar) return track.log_odds;
+  const double dt = field.dt_s();
+  const Vec2 step_px = dt * track.as_moving.velocity_pxps;
+  const Step step(step_px,
+                  parallax_px_m(camera_, field.displacement_C_m(), track.place_px - step_px),
+                  depth_bounds(field, track.place_px));
+  const double crowd = association_.crowd(static_cast<std::size_t>(track.corner));
+  const double crossing =
+      parameters_.crossings / (crowd * crowd) *
+      step.density_of_crossing(parameters_.slide, track.as_moving.step_variance_px2(dt)) /
+      step.density_of_mover(association_.reach_px(dt), noise2_px2_);
+  return -std::log(std::exp(-track.log_odds) + crossing);
+}
+
 /// Sets the beliefs of the tracks seen in this frame. A track seen once takes the belief of the
 /// nearest track with a motion, or 0 (pending) if none is near.
 void EdgeExpert::couple(const MotionField& field) {
@@ -212,10 +242,11 @@ void EdgeExpert::couple(const MotionField& field) {
   for (Track& track : tracks_) {
     if (track.corner < 0) continue;
     seen_.push_back(&track);
-    nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * dt,
+    nodes_.push_back({track.place_px, shown(track, field), track.as_moving.velocity_pxps * dt,
                       track.as_moving.step_variance_px2(dt), track.has_motion()});
   }
-  const std::vector<double>& beliefs = coupling_.settle(nodes_, around_, noise2_px2_);
+  const std::vector<double>& beliefs = coupling_.settle(
+      nodes_, around_, noise2_px2_, std::min(parameters_.coupling, parameters_.most_log_odds(dt)));
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i]->belief = beliefs[i];
 }
 
@@ -344,6 +375,21 @@ bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& firs
   return leave > usual * all && stand > 0.5 * leave;
 }
 
+/// Whether nearly all corners would move by themselves. The camera's motion is then wrong; once all
+/// tracks are rebels, none is left to correct it.
+bool EdgeExpert::do_all_move() const {
+  int count = 0;
+  double all = 0, move = 0;
+  for (const Track& track : tracks_) {
+    if (track.corner < 0 || !track.has_motion()) continue;
+    const double voice = 1.0 / association_.crowd(static_cast<std::size_t>(track.corner));
+    ++count;
+    all += voice;
+    move += voice * chance(track.belief);
+  }
+  return count >= parameters_.neighbours && move > kLeave * all;
+}
+
 const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& told,
                                            const MotionField* held) {
   const bool is_after_none = result_.motion == UsedMotion::none;
@@ -399,6 +445,13 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
   }
   if (field.dt_s() > 0) coast(field);
   couple(field);
+  if (do_all_move()) {
+    forget();
+    result_.motion = UsedMotion::none;
+    tracks_.clear();
+    for (std::size_t c = 0; c < chi.size(); ++c) tracks_.push_back(first_seen(chi, c));
+    couple(field);
+  }
   decide(chi, field);
   return result_;
 }

@@ -61,10 +61,13 @@ class EdgeExpert {
   bool has_residual(int track, bool started) const;
   Track first_seen(const Chi& chi, std::size_t corner);
   bool update(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
-  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
+  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
+                    double noise2_px2) const;
   double faded(double log_odds, double dt_s) const;
   void coast(const MotionField& field);
+  double shown(const Track& track, const MotionField& field) const;
   void couple(const MotionField& field);
+  bool do_all_move() const;
   void decide(const Chi& chi, const MotionField& field);
   Edge edge_of(const Track& track, const MotionField& field) const;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -26,11 +27,20 @@ struct EdgeParameters {
   /// Log odds of "moves" that a new corner starts with, above the prior: FAST finds movers' corners
   /// again less often.
   double newcomer = learnt("hypotheses.newcomer");
-  /// 1/s: rate at which a corner changes its kind, a track jumps to another corner, or a mover
-  /// changes its image velocity by as much as that velocity.
+  /// 1/s: rate at which a track jumps to another corner, or a mover changes its image velocity by
+  /// as much as that velocity.
   double turnover_ps = learnt("hypotheses.turnover");
   /// The probability of such a change within a frame.
   double turnover(double dt_s) const { return std::min(0.5, turnover_ps * dt_s); }
+  /// 1/s: rate at which a corner changes its kind: a mover comes to rest, or a resting one starts.
+  double kind_turnover_ps = learnt("hypotheses.kind_turnover");
+  /// The probability of such a change within a frame.
+  double kind_turnover(double dt_s) const { return std::min(0.5, kind_turnover_ps * dt_s); }
+  /// Bound of the log odds of moving: those of a corner whose kind was sure in the last frame.
+  double most_log_odds(double dt_s) const {
+    const double kind = kind_turnover(dt_s);
+    return std::log((1 - kind) / (kind * prior));
+  }
   /// Standard deviation of the camera's velocity, as a share of its speed.
   double ego_share = learnt("hypotheses.ego_share");
   double max_speed_pxps = 900;  ///< px/s: the fastest mover that is searched for, rotation removed
@@ -45,6 +55,11 @@ struct EdgeParameters {
   double neighbour_reach_px = learnt("hypotheses.neighbour_reach");
   double coupling = learnt("hypotheses.coupling");  ///< J: the most log odds that neighbours add
   int neighbours = 9;                               ///< nearest corners that vote
+  /// Crossings for each corner that moves, where a corner is alone; falls with the square of the
+  /// number of tracks within `neighbour_reach`.
+  double crossings = 2;
+  double slide =
+      0.15;  ///< way of a crossing off a static point's line, as a share of the way on it
 };
 
 }  // namespace lcs

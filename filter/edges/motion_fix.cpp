@@ -15,8 +15,6 @@ namespace {
 
 /// Prior standard deviation of the error of a frame's given rotation, on each axis.
 constexpr double kTurn_rad = 1e-3;
-/// Share of static tracks that may leave their predictions; a larger share contradicts the motion.
-constexpr double kLeave = 0.8;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;

@@ -13,6 +13,10 @@
 
 namespace lcs {
 
+/// Share of the tracks that may leave their static predictions; a larger share contradicts the
+/// motion.
+inline constexpr double kLeave = 0.8;
+
 /// Distance of a corner from the static prediction of its track.
 struct Residual {
   Vec2 place_px, off_px;

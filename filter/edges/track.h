@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "filter/edges/corner_noise.h"
 #include "filter/edges/static_point.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/motion_field.h"
@@ -55,7 +56,8 @@ struct Track {
   int unseen = 0;       ///< frames since the last sighting
   int corner = -1;      ///< index in this frame, -1: none
   double log_odds = 0;  ///< of moving, by its own sightings
-  double belief = 0;    ///< log odds of moving, coupled with its neighbours
+  CornerNoise noise;
+  double belief = 0;  ///< log odds of moving, coupled with its neighbours
 
   bool has_motion() const { return sightings >= 2; }
 };

@@ -13,13 +13,14 @@
 namespace lcs {
 
 /// Keys and values for `set`.
-inline constexpr std::array<std::pair<const char*, double>, 10> kLearnt{{
+inline constexpr std::array<std::pair<const char*, double>, 11> kLearnt{{
     {"hypotheses.noise", 0.352},
-    {"hypotheses.coupling", 13.2},
+    {"hypotheses.coupling", 8},
     {"hypotheses.prior", 0.0397},
-    {"hypotheses.newcomer", 1.4},
+    {"hypotheses.newcomer", 1.8},
     {"hypotheses.step_share", 0.206},
     {"hypotheses.turnover", 0.8},
+    {"hypotheses.kind_turnover", 0.1},
     {"hypotheses.ego_share", 0.02},
     {"hypotheses.bits_even", 86.6},
     {"hypotheses.bits_weight", 0.23},

@@ -321,7 +321,7 @@ std::vector<double> settle(std::span<const Coupling::Node> nodes,
   for (const Coupling::Node& node : nodes) places.push_back(node.place_px);
   Neighbourhood around;
   around.build(places, parameters.neighbour_reach_px, parameters.neighbours);
-  return Coupling(parameters).settle(nodes, around, kNoise2_px2);
+  return Coupling(parameters).settle(nodes, around, kNoise2_px2, parameters.coupling);
 }
 
 /// An isolated mover is more likely a chance match than a body.
