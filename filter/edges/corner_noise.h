@@ -15,7 +15,7 @@ class CornerNoise {
   /// \param scene_weight number of sightings as which that counts.
   double variance_px2(double scene_px2, double scene_weight) const {
     const double mean = (scene_weight * scene_px2 + sum_px2_) / (scene_weight + weight_);
-    return std::max(kWholePixel_px2, mean);
+    return std::max(1.0 / 12, mean);  // a place that is rounded to whole pixels has at least that
   }
 
   void fade(double kept) {
@@ -30,9 +30,6 @@ class CornerNoise {
   }
 
  private:
-  /// Of a place that is rounded to whole pixels.
-  static constexpr double kWholePixel_px2 = 1.0 / 12;
-
   double sum_px2_ = 0, weight_ = 0;
 };
 

@@ -216,7 +216,7 @@ void EdgeExpert::coast(const MotionField& field) {
 }
 
 /// The log odds of moving that a track shows to its neighbours: of its own sightings, unless it may
-/// be a crossing, which moves as no point does (MODEL.md (20)).
+/// be a crossing, which moves as no point does (MODEL.md (34)).
 double EdgeExpert::shown(const Track& track, const MotionField& field) const {
   // Surely static corners are not asked.
   if (!track.has_motion() || track.log_odds < -kFar) return track.log_odds;

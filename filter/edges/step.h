@@ -24,7 +24,7 @@ struct Step {
   double density_of_mover(double reach_px, double noise2_px2) const;
 
   /// Density of the step of a crossing, where the outline of a near body meets an edge behind it,
-  /// 1/px^2 (MODEL.md (20)). A crossing slides along the outline.
+  /// 1/px^2 (MODEL.md (34)). A crossing slides along the outline.
   /// \param slide standard deviation of the way off the segment, as a share of the way along it.
   double density_of_crossing(double slide, double step_variance_px2) const;
 };

@@ -359,6 +359,24 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   EXPECT_NEAR(m[1], 3.5869, 1e-3);
 }
 
+/// The neighbours add less than the log odds of a corner whose own sightings are sure.
+TEST(Coupling, ACornerThatIsSurelyStaticStaysSoAmongAnyNumberOfSureMovers) {
+  for (const double dt_s : {0.03, 0.1, 1.0}) {
+    const double most = kUsual.most_log_odds(dt_s);
+    for (const int movers : {1, 3, 30}) {
+      std::vector<Coupling::Node> nodes = {node(300, -most)};
+      for (int i = 0; i < movers; ++i) nodes.push_back(node(301 + i % 8, 50));
+      std::vector<Vec2> places;
+      for (const Coupling::Node& node : nodes) places.push_back(node.place_px);
+      Neighbourhood around;
+      around.build(places, kUsual.neighbour_reach_px, kUsual.neighbours);
+      const double m =
+          Coupling(kUsual).settle(nodes, around, kNoise2_px2, std::min(kUsual.coupling, most))[0];
+      EXPECT_LT(m, 0) << dt_s << " s, " << movers << " movers";
+    }
+  }
+}
+
 TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
   for (const double theirs : {-6.0, 6.0}) {
     std::vector<Coupling::Node> nodes = {node(300, theirs > 0 ? -1 : 1, {10, 0})};

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter/edges/corner_noise.h"
 #include "filter/ego_motion/estimator.h"
 #include "filter/filter.h"
 #include "filter/kinematics/ego_motion.h"
@@ -67,6 +68,111 @@ TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
         world.advance(motion);
       }
     }
+  }
+}
+
+/// Posts before a wall: points of both, and the crossings of the posts' outlines with the wall's
+/// upper edge, with signatures.
+struct Seen {
+  Corners corners;
+  std::vector<Signature> signatures;
+};
+/// \param ahead_m way that the camera has gone.
+Seen posts_before_wall(const Intrinsics& camera, double ahead_m, std::uint64_t frame) {
+  Seen seen;
+  std::size_t point = 0;
+  const auto add = [&](double x_m, double y_m, double near_m, double far_m) {
+    const double near = near_m - ahead_m, far = far_m - ahead_m;
+    const Vec2 px(camera.centre_px.x() + camera.focal_px * x_m / near,
+                  camera.centre_px.y() + camera.focal_px * y_m / far);
+    const bool is_seen = near > 0.5 && px.x() > 0 && px.y() > 0 && px.x() < 639 && px.y() < 479;
+    ++point;
+    if (!is_seen) return;
+    seen.corners.push_back(px.cast<float>());
+    seen.signatures.push_back(testing::signature_of(point, frame));
+  };
+  for (const double post_m : {-1.8, 1.5, 2.3}) {
+    for (const double side_m : {post_m - 0.15, post_m + 0.15}) {
+      add(side_m, 0.9, 9.5, 9.5);
+      add(side_m, -1.9, 9.5, 9.5);
+      add(side_m, -2.0, 9.5, 16);  // a crossing
+    }
+  }
+  for (const double x_m : {-4.0, -1.0, 3.0}) add(x_m, -2.0, 16, 16);
+  return seen;
+}
+
+TEST(HypothesisEdges, CrossingsThatSlideLittleAreNoRebels) {
+  const EgoMotion motion = steady_motion({0, 0, 1.5}, Vector3d::Zero(), 0.05);
+  const auto count = [&](const Parameters& parameters) {
+    std::ptrdiff_t sum = 0;
+    Filter filter(vga(), parameters);
+    for (std::uint64_t k = 0; k < 60; ++k) {
+      const Seen seen = posts_before_wall(vga(), 0.075 * static_cast<double>(k), k);
+      sum += rebels(
+          filter.step(rounded(seen.corners), seen.signatures, k == 0 ? EgoMotion{} : motion));
+    }
+    return sum;
+  };
+  Parameters without;
+  without.edge.crossings = 0;
+  EXPECT_GT(count(without), 20) << "the crossings of this test are none";
+  EXPECT_EQ(count(Parameters{}), 0) << count(without);
+}
+
+/// The depth that it seemed to have while it moved must not keep it a rebel.
+TEST(HypothesisEdges, AMoverThatStopsIsStaticSoonAfterwards) {
+  for (const double speed_mps : {-0.6, 0.8}) {
+    World world = sparse_world(7);
+    const std::size_t first = world.points.size();
+    for (int i = 0; i < 16; ++i) world.add({300 + 12 * (i % 4), 200 + 12 * (i / 4)}, 4);
+    const EgoMotion motion = steady_motion({0.2, 0, 0.5}, Vector3d::Zero(), kDt_s);
+    Filter filter(world.camera);
+    for (std::size_t k = 0; k < 26; ++k) {
+      for (std::size_t i = first; i < world.points.size(); ++i) {
+        world.points[i].velocity_C = k < 12 ? Vector3d(speed_mps, 0, 0) : Vector3d::Zero();
+      }
+      const FrameResult& result =
+          filter.step(rounded(world.corners()), world.signatures(k), k == 0 ? EgoMotion{} : motion);
+      const std::size_t last = result.verdicts.size();
+      if (k == 10) {
+        EXPECT_GT(rebels(result, last - 16, last), 12) << speed_mps;
+      }
+      if (k > 22) {
+        EXPECT_EQ(rebels(result, last - 16, last), 0) << speed_mps << ", frame " << k;
+      }
+      world.advance(motion);
+    }
+  }
+}
+
+/// The mean of normalised squared misses is 2, one for each axis. A corner of 1 px has 16 by the
+/// noise of the scene, and comes to 3: that noise still counts as 9 of some 25 sightings.
+TEST(CornerNoise, MissesAreAsLargeAsExpectedAtAnyNoise) {
+  for (const double sigma_px : {0.35, 0.6, 1.0}) {
+    Random random(3);
+    double sum = 0;
+    int count = 0;
+    for (int corner = 0; corner < 200; ++corner) {
+      CornerNoise noise;
+      for (int k = 0; k < 40; ++k) {
+        double miss2 = 0;
+        for (int axis = 0; axis < 2; ++axis) {
+          double normal = 0;  // of 12 uniform numbers
+          for (int i = 0; i < 12; ++i) normal += random.uniform(-0.5, 0.5);
+          miss2 += sigma_px * sigma_px * normal * normal;
+        }
+        const double variance = noise.variance_px2(0.35 * 0.35, 9);
+        if (k >= 20) {
+          sum += miss2 / variance;
+          ++count;
+        }
+        noise.fade(0.96);
+        noise.add(miss2, 1);
+      }
+    }
+    EXPECT_GT(sum / count, 1.8) << sigma_px;
+    EXPECT_LT(sum / count, 3.2) << sigma_px;
   }
 }
 

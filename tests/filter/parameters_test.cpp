@@ -170,8 +170,10 @@ TEST(Parameters, DefaultConstructedOnesAreThePresetDefault) {
       {"field.rotation", "homography"},
       {"field.still_speed", "0.005"},
       {"hypotheses.coast", "3"},
+      {"hypotheses.crossings", "2"},
       {"hypotheses.max_speed", "900"},
       {"hypotheses.neighbours", "9"},
+      {"hypotheses.slide", "0.15"},
       {"line.max_corners", "20000"},
       {"square.max_size", "5"},
   };
