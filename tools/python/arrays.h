@@ -60,8 +60,8 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   return read_only(array);
 }
 
-/// A float64 array with a row for each item. \param Size of a row. \param row_of gives its numbers,
-/// a matrix row-major.
+/// A float64 array with a row for each item. \tparam Size of a row. \param row_of gives its
+/// numbers, a matrix row-major.
 template <py::ssize_t... Size, class Items, class RowOf>
 py::array table(const Items& items, const RowOf& row_of) {
   py::array_t<double> array({std::ssize(items), Size...});
