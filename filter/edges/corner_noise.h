@@ -1,21 +1,19 @@
 /// \file
-/// The noise of one corner's place, from its own track.
+/// The noise of corners' places, from how far they miss their estimates.
 #pragma once
-
-#include <algorithm>
 
 namespace lcs {
 
-/// Sums of squared misses of a corner, under either hypothesis. A corner is as noisy as the others
-/// of the frame until it has shown otherwise (MODEL.md (17)).
+/// Faded sums of squared misses: of all corners of a frame, or of one corner on its track
+/// (MODEL.md (17)).
 class CornerNoise {
  public:
   /// Variance on an axis, px^2.
-  /// \param scene_px2 the variance of the frame's corners.
-  /// \param scene_weight number of sightings as which that counts.
-  double variance_px2(double scene_px2, double scene_weight) const {
-    const double mean = (scene_weight * scene_px2 + sum_px2_) / (scene_weight + weight_);
-    return std::max(1.0 / 12, mean);  // a place that is rounded to whole pixels has at least that
+  /// \param usual_px2 the variance of corners that have shown nothing yet.
+  /// \param usual_weight number of sightings as which that counts.
+  double variance_px2(double usual_px2, double usual_weight) const {
+    const double weight = usual_weight + weight_;
+    return weight > 0 ? (usual_weight * usual_px2 + sum_px2_) / weight : usual_px2;
   }
 
   void fade(double kept) {

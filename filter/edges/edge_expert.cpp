@@ -22,14 +22,10 @@ EdgeExpert::EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameter
 
 /// Estimates the noise of this frame's corners from static tracks of earlier frames.
 void EdgeExpert::estimate_noise(double dt_s) {
-  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
-  const double kept = 1 - parameters_.turnover(dt_s);
-  noise_sum_px2_ *= kept;
-  noise_weight_ *= kept;
-  const double weight = n + noise_weight_;
+  const double least2 = parameters_.noise_px * parameters_.noise_px;
+  noise_.fade(1 - parameters_.turnover(dt_s));
   last_noise2_px2_ = noise2_px2_;
-  noise2_px2_ = least2;
-  if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
+  noise2_px2_ = std::max(least2, noise_.variance_px2(least2, parameters_.neighbours));
 }
 
 void EdgeExpert::forget() {
@@ -38,7 +34,7 @@ void EdgeExpert::forget() {
   velocity_error_.forget();
   is_confirmed_ = false;
   result_.motion = UsedMotion::told;
-  noise_sum_px2_ = noise_weight_ = 0;
+  noise_ = {};
 }
 
 void EdgeExpert::predict_tracks(const MotionField& field) {
@@ -146,7 +142,9 @@ bool EdgeExpert::update(Track& track, const Vec2& x_px, double chance_ppx2,
   const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
   const double kind = parameters_.kind_turnover(field.dt_s());
   const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
-  const double noise2 = track.noise.variance_px2(noise2_px2_, parameters_.neighbours);
+  // A place that is rounded to whole pixels has at least 1/12 px^2.
+  const double noise2 =
+      std::max(1.0 / 12, track.noise.variance_px2(noise2_px2_, parameters_.neighbours));
   // At the first step the error of the velocity is added, which its prediction omits.
   const double first2 =
       noise2 + std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
@@ -186,8 +184,7 @@ bool EdgeExpert::update(Track& track, const Vec2& x_px, double chance_ppx2,
   const double stands = (1 - moves) * right * still / (right * still + none);
   const double miss2 =
       (x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace();
-  noise_sum_px2_ += stands / 2 * miss2;
-  noise_weight_ += stands;
+  noise_.add(miss2, stands);
   track.noise.fade(right);
   track.noise.add(miss2, stands);
   track.noise.add(
@@ -450,7 +447,6 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     result_.motion = UsedMotion::none;
     tracks_.clear();
     for (std::size_t c = 0; c < chi.size(); ++c) tracks_.push_back(first_seen(chi, c));
-    couple(field);
   }
   decide(chi, field);
   return result_;

@@ -75,10 +75,10 @@ class EdgeExpert {
   EdgeParameters parameters_;
   TrustRanks trust_;
   Id next_id_ = 1;
-  double noise2_px2_ = 0;                        // of this frame's corners, from earlier frames
-  double last_noise2_px2_ = 0;                   // of the last frame's corners, likewise
-  double noise_sum_px2_ = 0, noise_weight_ = 0;  // faded sums of squares and of their weights
-  Neighbourhood around_;                         // of this frame's corners
+  double noise2_px2_ = 0;       // of this frame's corners, from earlier frames
+  double last_noise2_px2_ = 0;  // of the last frame's corners, likewise
+  CornerNoise noise_;           // of the corners of all frames so far, faded
+  Neighbourhood around_;        // of this frame's corners
   Association association_;
   Coupling coupling_;
   MotionFinder motion_finder_;

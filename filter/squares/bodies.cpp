@@ -240,7 +240,8 @@ void Bodies::measure(const std::vector<Circle>& circles, std::span<const Square>
       body.weight = std::pow(1 - edges_.turnover(field.dt_s()), 2) * body.weight + n * n;
       const double share = n * n / body.weight;
       const Vec2 middle = body.now.range_px.center() - body.centre_px;
-      const Vec2 half = 0.5 * (n + 1) / (n - 1) * body.now.range_px.sizes();
+      const Vec2 half =
+          0.5 * beyond(static_cast<std::size_t>(body.now.edges)) * body.now.range_px.sizes();
       body.box_px = {(1 - share) * body.box_px.min() + share * (middle - half),
                      (1 - share) * body.box_px.max() + share * (middle + half)};
     }

@@ -59,6 +59,10 @@ Outline ConvexHull::outline() {
   return outline;
 }
 
+double beyond(std::size_t count) {
+  return static_cast<double>(count + 1) / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
+}
+
 void place(Square& square, const Vec2& location, const Vec2& half_size) {
   const Vec2 stretch = (square.half_size.array() > 0)
                            .select(half_size.array() / square.half_size.array(), 1.0)

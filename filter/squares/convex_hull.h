@@ -29,6 +29,10 @@ class ConvexHull {
   std::vector<Vec2> points_, chain_;
 };
 
+/// Expected size of a body over the range of its corners: `count` uniform samples of an interval
+/// span (count - 1) / (count + 1) of it on average.
+double beyond(std::size_t count);
+
 /// Moves and scales a square's box with its outline: each vertex keeps its relative place.
 void place(Square& square, const Vec2& location, const Vec2& half_size);
 

@@ -1,19 +1,8 @@
 #include "filter/squares/square_expert.h"
 
-#include <algorithm>
-
 #include "filter/vectors/refill.h"
 
 namespace lcs {
-namespace {
-
-/// Expected size of a body over the range of its corners: `count` uniform samples of an interval
-/// span (count - 1) / (count + 1) of it on average.
-double beyond(std::size_t count) {
-  return static_cast<double>(count + 1) / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
-}
-
-}  // namespace
 
 /// Appends the squares of circles of one kind.
 void SquareExpert::box(const std::vector<Edge>& edges, const std::vector<Circle>& circles,

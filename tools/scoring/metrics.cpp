@@ -233,8 +233,7 @@ std::vector<Metric> label_metrics() {
        "boxed",
        "share of the labelled boxes that a moving square covers with an IoU of 0.5, one to one. A "
        "square moves if a circle of it is rebel, or if it has none, as of a body that moved "
-       "before; "
-       "by detectors other than the filter every square does"},
+       "before; by detectors other than the filter every square does"},
       {"labels.rebels_off_per_frame",
        [](auto& s) { return ratio(s.labels.rebels_off, s.labels.frames); },
        lower("per frame", 0.1, 1), "rebels off", "rebel corners in no labelled box"},

@@ -156,8 +156,10 @@ void SquareScorer::add(const recording::FrameRecord& frame) {
   add_to(sums_.at_30, outcomes_of(squares, 0.3));
   add_to(sums_.at_50, outcomes_of(squares, kRightIou));
   add_to(sums_.at_70, outcomes_of(squares, 0.7));
+  std::map<int, Doing> doing;
   for (const int object : squares.eligible) {
-    ++boxes_[object][static_cast<std::size_t>(doing_of(object, frame))];
+    doing[object] = doing_of(object, frame);
+    ++boxes_[object][static_cast<std::size_t>(doing[object])];
   }
   std::optional<FrameRegions> regions;
   if (are_masks_known_) {
@@ -169,7 +171,7 @@ void SquareScorer::add(const recording::FrameRecord& frame) {
   }
   for (const BoxPair& pair : squares.pairs) {
     if (pair.iou < kRightIou) continue;
-    pairs_.push_back({pair.box, doing_of(pair.box, frame), pair.iou,
+    pairs_.push_back({pair.box, doing.at(pair.box), pair.iou,
                       regions ? regions->iou(pair.box, pair.square) : 0});
     const auto [last, first_time] = last_square_.try_emplace(pair.box, pair.square);
     sums_.identity_switches += last->second != pair.square;
