@@ -264,6 +264,28 @@ TEST(HypothesisEdges, BeginAnewAfterAWrongFirstMotion) {
   }
 }
 
+/// The told velocity drifts off too slowly for a contradiction, until nearly all corners are
+/// rebels. None is then left to correct the motion, so that all tracks are dropped.
+TEST(HypothesisEdges, BeginAnewOnceNearlyAllCornersWouldMove) {
+  const EgoMotion motion = steady_motion({0.6, 0, 0.5}, {0.01, 0.05, -0.02}, kDt_s);
+  World world = sparse_world(5, 30);
+  Filter filter(world.camera);
+  double most = 0;
+  for (std::size_t k = 0; k < 30; ++k) {
+    EgoMotion told = k == 0 ? EgoMotion{} : motion;
+    if (k > 6) told.v_C_mps.x() += 0.02 * std::min<double>(static_cast<double>(k) - 6, 12);
+    const FrameResult& result = filter.step(rounded(world.corners()), world.signatures(k), told);
+    const double share =
+        static_cast<double>(rebels(result)) / static_cast<double>(result.verdicts.size());
+    EXPECT_LT(share, 0.85) << k;
+    EXPECT_TRUE(k < 25 || share == 0) << k << ": " << share;
+    most = std::max(most, share);
+    world.advance(motion);
+  }
+  EXPECT_GT(most, 0.6) << "the told velocity of this test is near enough to the camera's";
+  EXPECT_EQ(filter.diagnostics().count(Fault::motion_contradicted), 1);
+}
+
 /// The object was parked until then.
 TEST(HypothesisEdges, ObjectFillingHalfThePictureIsSeenToDriveOff) {
   World world = sparse_world(5, 30);
