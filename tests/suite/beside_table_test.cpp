@@ -45,13 +45,14 @@ TEST(StandingTable, HasARowForEachDetectorOverWhatItHas) {
   SuiteResult other = suite_by("klt", {scenario("near", {0.6, 0.7}, 3)});
   other.scenarios[0].runs[0].metrics.emplace_back("time.process_ms_median", 7);
   const std::string head =
-      "| detector | recall | F1 | false (per 100 frames) | boxed movers | filter (ms) | process "
+      "| detector | recall | F1 | false corners (per frame) | false (per 100 frames) | boxed "
+      "movers | filter (ms) | process "
       "(ms) "
-      "|\n|---|---|---|---|---|---|---|\n";
+      "|\n|---|---|---|---|---|---|---|---|\n";
   const std::vector<SuiteResult> others{other};
   EXPECT_EQ(standing_table(suite, others), head +
-                                               "| `lcs` | - | 0.650 | - | - | 1.5 | - |\n"
-                                               "| `klt` | - | 0.650 | - | - | 3.0 | 7.0 |\n"
+                                               "| `lcs` | - | 0.650 | - | - | - | 1.5 | - |\n"
+                                               "| `klt` | - | 0.650 | - | - | - | 3.0 | 7.0 |\n"
                                                "\nMeans over 3 scenarios; F1 and recall over the "
                                                "2 with F1.\n");
   for (ScenarioResult& world : suite.scenarios) world.drawn = Drawn{"room", 0, {}};
@@ -91,6 +92,7 @@ TEST(BesideTable, OfWorldsHasTheIntervalOfEachMeanAndOfThePairedDifferenceByFami
     ScenarioResult result = scenario_with(name, "rebel.f1", {std::nullopt});
     result.groups = {"world", "yard", "static"};
     result.drawn = Drawn{"yard", 0, {}};
+    result.runs[0].metrics.emplace_back("rebel.false_corners_per_frame", false_objects / 10);
     result.runs[0].metrics.emplace_back("rebel.false_objects_per_100_frames", false_objects);
     return result;
   };
@@ -101,20 +103,23 @@ TEST(BesideTable, OfWorldsHasTheIntervalOfEachMeanAndOfThePairedDifferenceByFami
       suite_by("klt", {world("a", 0.4, "room"), world("b", 0.5, "yard"), world("c", 0.6, "yard"),
                        still("d", 20), still("e", 20)});
   EXPECT_EQ(beside_table(suite, {{other}}),
-            "F1                         lcs          klt\n"
-            "a                         0.50         0.40\n"
-            "b                         0.70         0.50\n"
-            "c                         0.90         0.60\n"
-            "= room (1)                0.50         0.40\n"
-            "= yard (2)                0.80±1.27    0.55±.64\n"
-            "= mean (3)                0.70±.50     0.50±.25\n"
-            "lcs ahead by                            klt\n"
-            "= room (1)                           +0.100\n"
-            "= yard (2)                           +0.250±.635\n"
-            "= mean (3)                           +0.200±.248\n"
-            "false (per 100 frames)     lcs          klt\n"
-            "= static (2)               4.0±13      20.0\n"
-            "= mean (5)                 5.8±2.8     11.0±10\n"
+            "F1                            lcs          klt\n"
+            "a                            0.50         0.40\n"
+            "b                            0.70         0.50\n"
+            "c                            0.90         0.60\n"
+            "= room (1)                   0.50         0.40\n"
+            "= yard (2)                   0.80±1.27    0.55±.64\n"
+            "= mean (3)                   0.70±.50     0.50±.25\n"
+            "lcs ahead by                               klt\n"
+            "= room (1)                              +0.100\n"
+            "= yard (2)                              +0.250±.635\n"
+            "= mean (3)                              +0.200±.248\n"
+            "false corners (per frame)     lcs          klt\n"
+            "= static (2)                  0.4±1.3      2.0\n"
+            "= mean (2)                    0.4±1.3      2.0\n"
+            "false (per 100 frames)        lcs          klt\n"
+            "= static (2)                  4.0±13      20.0\n"
+            "= mean (5)                    5.8±2.8     11.0±10\n"
             "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n"
             "lcs is ahead of klt in 3 of 3, least in a (+0.100); takes 1.00 of its time\n");
 }

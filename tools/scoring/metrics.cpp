@@ -105,7 +105,7 @@ std::vector<Metric> rebel_metrics() {
       {"rebel.false_corners_per_frame",
        [](auto& s) { return ratio(s.corners.overall.false_rebels, s.objects.frames); },
        lower("per frame", 0.1, 1), "false corners",
-       "false rebels. For static scenes, which have no precision"},
+       "false rebels. For static scenes, which have no precision", kInAll},
       {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
        kShare, "found",
        "share of the movers that are found. A mover is found if 3 or more of its corners are "

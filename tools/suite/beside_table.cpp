@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -18,8 +19,9 @@
 namespace lcs::suite {
 namespace {
 
-constexpr std::string_view kTime = "time.filter_ms_median",
-                           kFalse = "rebel.false_objects_per_100_frames";
+constexpr std::string_view kTime = "time.filter_ms_median";
+constexpr std::array<std::string_view, 2> kFalse{"rebel.false_corners_per_frame",
+                                                 "rebel.false_objects_per_100_frames"};
 
 constexpr const char* kIntervalLegend =
     "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n";
@@ -219,8 +221,10 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   const bool of_worlds = is_of_worlds(suite);
 
   const std::string ahead = fmt::format("{} ahead by", suite.detector);
-  const std::string false_head = scoring::metric(kFalse).heading();
-  std::size_t longest = of_worlds ? std::max(ahead.size(), false_head.size()) : 0;
+  std::size_t longest = of_worlds ? ahead.size() : 0;
+  for (const std::string_view key : kFalse) {
+    if (of_worlds) longest = std::max(longest, scoring::metric(key).heading().size());
+  }
   for (const Row& row : rows) longest = std::max(longest, row.name.size());
   for (const MeanRow& row : means) longest = std::max(longest, row.name.size());
   std::vector<std::string> names{suite.detector};
@@ -233,10 +237,13 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   if (of_worlds) {
     table.header(ahead, 1);
     for (const MeanRow& row : means_of(suite, leads(rows))) table.row(row, 3, 1);
-    table.header(false_head);
     // In the groups without F1, where nothing moves, and over all.
-    const std::vector<Row> false_objects = rows_of(suite, others, kFalse);
-    for (const MeanRow& row : means_of(suite, false_objects, rows)) table.row(row, 1);
+    for (const std::string_view key : kFalse) {
+      table.header(scoring::metric(key).heading());
+      for (const MeanRow& row : means_of(suite, rows_of(suite, others, key), rows)) {
+        table.row(row, 1);
+      }
+    }
     lines = kIntervalLegend + lines;
   }
   return table.text() + lines;
