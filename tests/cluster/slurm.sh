@@ -116,7 +116,7 @@ start_node "$name"
 
 require_merged() {
   [[ $1 == 1 ]] || fail "the merge exits with $1: $(tail merged.parts/merge.log)"
-  grep '^not regressed' merged.parts/merge.log || fail "the merge does not compare with the baseline"
+  grep '^equal' merged.parts/merge.log || fail "the merge does not compare with the baseline"
   require_as_whole merged
 }
 status=0

@@ -1,5 +1,6 @@
 #include "tools/suite/comparison.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -307,6 +308,124 @@ TEST(Compare, ALostShareOfF1IsNotBetterWhereF1Falls) {
   EXPECT_EQ(verdict(with(0.8, 0.1), with(0.3, 0.05)), Change::moved);
   EXPECT_EQ(verdict(with(0.8, 0.1), with(0.85, 0.05)), Change::improved);
   EXPECT_EQ(verdict(with(0.8, 0.05), with(0.75, 0.1)), Change::regressed);
+}
+
+// ---- The finding
+
+/// Suites of worlds with one value of a figure each.
+Comparison compare_worlds(const Values& before, const Values& after,
+                          const std::string& metric = "rebel.f1") {
+  const auto worlds = [&](const Values& values) {
+    SuiteResult suite = suite_with({});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      suite.scenarios.push_back(scenario_with("room_" + std::to_string(i), metric, {values[i]}));
+      suite.scenarios.back().drawn = Drawn{"room", 0, {}};
+    }
+    return suite;
+  };
+  return compare_all(worlds(before), worlds(after));
+}
+
+std::string told(const Comparison& comparison, int failed_criteria = 0) {
+  return text_of(comparison.finding(failed_criteria), comparison, failed_criteria);
+}
+
+TEST(Finding, AnUnchangedSuiteIsEqual) {
+  const Comparison same = compare_values({0.5, 0.7, 0.6}, {0.5, 0.7, 0.6});
+  EXPECT_EQ(same.finding(0), Finding::equal);
+  EXPECT_EQ(told(same), "equal: no loss above 0.000 of rebel.f1");
+  EXPECT_EQ(compare_values({0.5}, {0.5}).finding(0), Finding::equal) << "one seed, the same bits";
+}
+
+TEST(Finding, ALossBelowTwiceTheLeastChangeThatMattersIsEqual) {
+  const Comparison within = compare_values({0.5, 0.6, 0.7}, {0.489, 0.590, 0.691});
+  EXPECT_EQ(within.finding(0), Finding::equal);
+  EXPECT_EQ(told(within), "equal: no loss above 0.012 of rebel.f1");
+}
+
+TEST(Finding, ALossThatIsNotExcludedIsToldWithTheWorldsThatWouldShowIt) {
+  // -.01 +- .1: neither a regression nor equal. t(3) = 3.18 and a deviation of 0.0632 give 0.1007.
+  const Comparison wide = compare_worlds({0.5, 0.5, 0.5, 0.5}, {0.4168, 0.4353, 0.5448, 0.5631});
+  EXPECT_EQ(wide.finding(0), Finding::uncertain);
+  const auto [mean, half, error, degrees] = wide.groups.at(0).change;
+  EXPECT_EQ(told(wide),
+            fmt::format("no regression found, but a loss of up to {:.3f} of rebel.f1 is "
+                        "not excluded (some {:.0f} worlds would tell 0.02 of rebel.f1 "
+                        "apart)",
+                        *half - mean, 4 * std::pow(1.96 * error / 0.02, 2)));
+}
+
+/// Each main figure loses where it gets worse, whichever direction that is.
+TEST(Finding, RestsOnEachMainFigureAndOnNoOther) {
+  EXPECT_EQ(compare_values({0.8, 0.81, 0.79}, {0.6, 0.62, 0.6}).finding(0), Finding::regressed);
+  for (const char* worse_if_more :
+       {"rebel.false_corners_per_frame", "rebel.false_objects_per_100_frames"}) {
+    EXPECT_EQ(compare_values({1, 1, 1}, {9, 9.1, 9}, worse_if_more).finding(0), Finding::regressed);
+    EXPECT_EQ(compare_values({9, 9.1, 9}, {1, 1, 1}, worse_if_more).finding(0), Finding::equal);
+  }
+  const auto with = [](double memory) {
+    ScenarioResult scenario = scenario_with("near", "rebel.f1", {0.5, 0.5});
+    for (RunResult& run : scenario.runs) run.metrics.emplace_back("dimension.mean", memory);
+    return suite_with({scenario});
+  };
+  const Comparison larger = compare_all(with(100), with(200));
+  EXPECT_EQ(larger.finding(0), Finding::uncertain);
+  EXPECT_EQ(told(larger), "no regression found, but 1 other mean regressed, 1 scenario regressed");
+}
+
+TEST(Finding, OfFiguresThatAreAskedForRestsOnThese) {
+  const auto memory = [](double mean) {
+    return suite_with({scenario_with("near", "dimension.mean", {mean, mean})});
+  };
+  EXPECT_EQ(compare(memory(100), memory(200),
+                    [](std::string_view key) { return key.starts_with("dimension"); })
+                .finding(0),
+            Finding::regressed);
+}
+
+/// A suite that shrinks must not become green.
+TEST(Finding, MissingScenariosSeedsAndFramesAreNotJudged) {
+  const ScenarioResult near = scenario_with("near", "rebel.f1", {0.5, 0.5}),
+                       far = scenario_with("far", "rebel.f1", {0.5, 0.5});
+  Comparison fewer = compare_all(suite_with({near, far}), suite_with({near}));
+  EXPECT_EQ(fewer.finding(0), Finding::not_judged);
+  EXPECT_EQ(told(fewer),
+            "not judged: missing or other frames than before: far; --allow-missing judges the "
+            "others");
+  fewer.missing.clear();
+  EXPECT_EQ(fewer.finding(0), Finding::equal);
+  EXPECT_EQ(compare_all(suite_with({near}), suite_with({near, far})).finding(0), Finding::equal);
+  EXPECT_EQ(compare_values({0.5, 0.5, 0.5}, {0.5, 0.5}).finding(0), Finding::not_judged);
+  const auto with_frames = [&](double frames) {
+    ScenarioResult scenario = near;
+    for (RunResult& run : scenario.runs) run.metrics.emplace_back("frames", frames);
+    return suite_with({scenario});
+  };
+  EXPECT_EQ(compare_all(with_frames(50), with_frames(50)).finding(0), Finding::equal);
+  EXPECT_EQ(compare_all(with_frames(50), with_frames(8)).finding(0), Finding::not_judged);
+}
+
+TEST(Finding, ARegressionIsToldThoughRunsAreMissing) {
+  const auto with = [](double f1) { return scenario_with("near", "rebel.f1", {f1, f1}); };
+  EXPECT_EQ(compare_all(suite_with({with(0.8), scenario_with("far", "rebel.f1", {0.5})}),
+                        suite_with({with(0.5)}))
+                .finding(0),
+            Finding::regressed);
+}
+
+TEST(Finding, SuitesWithoutAMainFigureInBothAreNotJudged) {
+  const Comparison none = compare_values({0.5, 0.5}, {std::nullopt, std::nullopt});
+  EXPECT_EQ(none.finding(0), Finding::not_judged);
+  EXPECT_EQ(told(none), "not judged: no main figure is in both suites");
+}
+
+TEST(Finding, AFailedCriterionOrAFigureThatIsNoLongerDefinedIsNotEqual) {
+  const Comparison same = compare_values({0.5, 0.5}, {0.5, 0.5});
+  EXPECT_EQ(same.finding(1), Finding::uncertain);
+  EXPECT_EQ(told(same, 1), "no regression found, but failed criteria and runs: 1");
+  const Comparison lost = compare_values({0.5, 0.5, 0.5}, {0.5, 0.5, std::nullopt});
+  EXPECT_EQ(told(lost),
+            "no regression found, but 1 main figure of a scenario is no longer defined");
 }
 
 // ---- Text output

@@ -79,10 +79,20 @@ TEST_F(MergeRequest, SaysThatAnEventIsNewAndThatPicturesAreNotKept) {
   const auto before = suite("before", good_, {});
   const auto after = suite("after", good_, {plain});
   const std::string text = written(before, after);
-  EXPECT_TRUE(text.starts_with("### 🟢 Not regressed\n")) << text;
+  EXPECT_TRUE(text.starts_with("### 🟢 Equal\n")) << text;
   EXPECT_NE(text.find("| no such event in these frames | the suite keeps no pictures |"), text.npos)
       << text;
   EXPECT_FALSE(has(kBeforePicture) || has(kAfterPicture));
+}
+
+TEST_F(MergeRequest, IsYellowWhereALossIsNotExcluded) {
+  const std::string text = written(suite("before", good_, {}), suite("after", {0.7, 0.9, 0.8}, {}));
+  EXPECT_TRUE(text.starts_with("### 🟡 No regression found\n")) << text;
+}
+
+TEST_F(MergeRequest, IsRedWhereASeedIsMissing) {
+  const std::string text = written(suite("before", good_, {}), suite("after", {0.80, 0.81}, {}));
+  EXPECT_TRUE(text.starts_with("### 🔴 Not judged\n")) << text;
 }
 
 TEST_F(MergeRequest, LooksForPicturesAtTheAddressThatIsGiven) {

@@ -35,10 +35,12 @@ TEST(SuiteVerdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   };
   const SuiteResult before = with(0.8, 0.2);
   SuiteResult after = with(0.6, 0.4);
-  EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
-            "not regressed: of 1 mean 0 regressed, 0 improved; of 3 scenarios 1 regressed, 1 "
-            "improved, 1 as before; 6 runs without an error, no criteria asked for");
-  EXPECT_TRUE(verdict_against({after, {}}, {before, {}}).is_good);
+  EXPECT_EQ(
+      verdict_against({after, {}}, {before, {}}).line,
+      "no regression found, but 1 scenario regressed; of 1 mean 0 regressed, 0 improved; of 3 "
+      "scenarios 1 regressed, 1 improved, 1 as before; 6 runs without an error, no criteria "
+      "asked for");
+  EXPECT_EQ(verdict_against({after, {}}, {before, {}}).light, Light::yellow);
   // A criterion counts once a seed.
   for (RunResult& run : after.scenarios[2].runs) {
     run.criteria = {criterion(false), criterion(true), criterion(false, false)};
@@ -46,17 +48,27 @@ TEST(SuiteVerdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   }
   after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
   const SuiteVerdict verdict = verdict_against({after, {}}, {before, {}});
-  EXPECT_EQ(verdict.line,
-            "not regressed: of 1 mean 0 regressed, 0 improved; of 4 scenarios 1 regressed, 1 "
-            "improved, 1 as before, 1 not compared; 7 of 11 criteria met, 2 failed, 2 missed but "
-            "not required")
+  EXPECT_EQ(
+      verdict.line,
+      "no regression found, but 1 scenario regressed, failed criteria and runs: 2; of 1 mean 0 "
+      "regressed, 0 improved; of 4 scenarios 1 regressed, 1 improved, 1 as before, 1 not "
+      "compared; 7 of 11 criteria met, 2 failed, 2 missed but not required")
       << "2 of the third scenario, and a run without criteria for each of the 5 others";
-  EXPECT_FALSE(verdict.is_good);
+  EXPECT_EQ(verdict.light, Light::yellow);
   ASSERT_EQ(verdict.remarks.size(), 3u);
   EXPECT_EQ(
       verdict.remarks[0].reasons,
       std::vector<std::string>{"failed criterion, seed 1, rebel.f1 is 0.4, must be at least 0.5 "
                                "(fails with 2 of 2 seeds)"});
+}
+
+TEST(SuiteVerdict, IsRedWithoutABaselineOnlyIfACriterionFailed) {
+  SuiteResult suite = suite_with({scenario_with("a", "rebel.f1", {0.5})});
+  EXPECT_EQ(verdict_of({suite, {}}, nullptr, nullptr).light, Light::green);
+  suite.scenarios[0].runs[0].criteria = {criterion(false)};
+  const SuiteVerdict verdict = verdict_of({suite, {}}, nullptr, nullptr);
+  EXPECT_EQ(verdict.light, Light::red);
+  EXPECT_FALSE(verdict.finding);
 }
 
 TEST(SuiteVerdict, WithoutABaselineCountsCriteriaAndErrors) {

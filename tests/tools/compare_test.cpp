@@ -38,9 +38,9 @@ TEST_F(CompareCommand, ExitsWithZeroForTheSameAndForTheBetter) {
   const CommandResult same = compare({"a", "a/suite.json"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
   EXPECT_TRUE(
-      same.out.ends_with("\nnot regressed: of 1 mean 0 regressed, 0 improved; of 1 scenario 0 "
-                         "regressed, 0 improved, 1 as before; 2 runs without an error, no criteria "
-                         "asked for\n"))
+      same.out.ends_with("\nequal: no loss above 0.000 of rebel.f1; of 1 mean 0 regressed, 0 "
+                         "improved; of 1 scenario 0 regressed, 0 improved, 1 as before; 2 runs "
+                         "without an error, no criteria asked for\n"))
       << same.out;
   const CommandResult better = compare({"a", "b"});
   EXPECT_EQ(better.exit_code, 0) << better.err;
@@ -68,7 +68,7 @@ TEST_F(CompareCommand, TheVerdictIsGreenOrRedOnATerminalUnlessNoColourIsAskedFor
   suite("b", {0.5, 0.6});
   ::setenv("TERM", "xterm", 1);
   ::unsetenv("NO_COLOR");
-  EXPECT_NE(on_terminal({"compare", "a", "a"}, folder_.path()).find("\x1b[32mnot regressed: "),
+  EXPECT_NE(on_terminal({"compare", "a", "a"}, folder_.path()).find("\x1b[32mequal: "),
             std::string::npos);
   EXPECT_NE(on_terminal({"compare", "a", "b"}, folder_.path()).find("\x1b[31mregressed: "),
             std::string::npos);
@@ -86,7 +86,30 @@ TEST_F(CompareCommand, ExitsWithOneForARegressionAmongTheFiguresAskedFor) {
   EXPECT_EQ(compare({"a", "b"}).exit_code, 1);
   EXPECT_EQ(compare({"a", "b", "--fail-on-regression"}).exit_code, 1);
   EXPECT_EQ(compare({"a", "b", "--metric", "f1$"}).exit_code, 1);
-  EXPECT_EQ(compare({"a", "b", "--metric", "square"}).exit_code, 0);
+  EXPECT_EQ(compare({"a", "b", "--metric", "square"}).exit_code, 2) << "neither suite has any";
+}
+
+TEST_F(CompareCommand, ExitsWithTwoWhereASeedIsMissingUnlessAllowed) {
+  suite("a", {0.7, 0.8});
+  suite("b", {0.7});
+  const CommandResult fewer = compare({"a", "b"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_NE(fewer.out.find("\nnot judged: missing or other frames than before: near seed 2; "
+                           "--allow-missing judges the others; "),
+            std::string::npos)
+      << fewer.out;
+  EXPECT_EQ(compare({"a", "b", "--allow-missing"}).exit_code, 0);
+}
+
+TEST_F(CompareCommand, ExitsWithZeroAndIsYellowWhereALossIsNotExcluded) {
+  suite("a", {0.7, 0.8});
+  suite("b", {0.6, 0.9});
+  ::setenv("TERM", "xterm", 1);
+  ::unsetenv("NO_COLOR");
+  EXPECT_NE(
+      on_terminal({"compare", "a", "b"}, folder_.path()).find("\x1b[33mno regression found, "),
+      std::string::npos);
+  EXPECT_EQ(compare({"a", "b"}).exit_code, 0);
 }
 
 TEST_F(CompareCommand, TellsMistakesInOneLineAndExitsWithTwo) {
@@ -111,7 +134,7 @@ TEST_F(CompareCommand, TellsMistakesInOneLineAndExitsWithTwo) {
 TEST_F(CompareCommand, HelpTeachesExamplesAndExitCodes) {
   const CommandResult help = compare({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* part : {"Examples", "lcs compare", "Exit codes", "interval"}) {
+  for (const char* part : {"Examples", "lcs compare", "Exit codes", "not judged"}) {
     EXPECT_NE(help.out.find(part), std::string::npos) << part << " in\n" << help.out;
   }
 }

@@ -14,6 +14,7 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
+#include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/suite/junit.h"
@@ -369,6 +370,18 @@ TEST_F(Suite, SettingsReachEveryRunAndAreWrittenDown) {
             (std::pair<std::string, std::optional<double>>{"frames", 3}));
 }
 
+TEST_F(Suite, ARunPassesOnlyWhatItCanBeJudgedByAlone) {
+  scenario("alone", "criteria: [{metric: frames, min: 4}]\n");
+  scenario("never", "");
+  scenario("together", "criteria: [{metric: frames, min: 5, over: mean}]\n");
+  const CommandResult result = run({"--seeds", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("alone seed 1: passed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("never seed 1: done"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("together seed 1: done"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("2 passed, 1 failed"), std::string::npos) << result.out;
+}
+
 TEST_F(Suite, ADetectorReachesEveryRunAndIsWrittenDown) {
   scenario("near");
   ASSERT_EQ(run({"--seeds", "1", "--detector", "klt"}).exit_code, 0);
@@ -381,7 +394,7 @@ TEST_F(Suite, ABaselineShowsChangesAndAnUnreadableOneIsRefusedBeforeAnyRun) {
   const CommandResult same =
       run({"--seeds", "2", "--recorded", "before", "--baseline", "before", "--fail-on-regression"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_NE(same.out.find("\nnot regressed: of "), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("\nequal: no loss above "), std::string::npos) << same.out;
 
   // A better earlier suite: an unchanged result has regressed from it.
   const fs::path better = folder_.path() / "better";
@@ -389,7 +402,7 @@ TEST_F(Suite, ABaselineShowsChangesAndAnUnreadableOneIsRefusedBeforeAnyRun) {
   SuiteResult suite = read_suite(better);
   for (RunResult& run : suite.scenarios[0].runs) {
     for (auto& [name, figure] : run.metrics) {
-      if (name == "dimension.mean") figure = figure.value() - 50;
+      if (name == "rebel.false_corners_per_frame") figure = figure.value() - 50;
     }
   }
   write_suite(better / kSuiteFile, suite);
@@ -397,14 +410,18 @@ TEST_F(Suite, ABaselineShowsChangesAndAnUnreadableOneIsRefusedBeforeAnyRun) {
                                          "before",  "--baseline", "better"};
   const CommandResult worse = run(against);
   EXPECT_EQ(worse.exit_code, 0) << "it is not asked to fail";
-  EXPECT_NE(worse.out.find("passed, regressed: near\n  dimension.mean "), std::string::npos)
+  EXPECT_NE(worse.out.find("passed, regressed: near\n  rebel.false_corners_per_frame "),
+            std::string::npos)
       << worse.out;
-  EXPECT_NE(worse.out.find("\nregressed: of "), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("\nregressed: rebel.false_corners_per_frame "), std::string::npos)
+      << worse.out;
   std::vector<std::string> strict = against;
   strict.insert(strict.end(), {"--fail-on-regression", "--quiet"});
   const CommandResult failed = run(strict);
   EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_NE(failed.err.find("against better: regressed: of "), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("against better: regressed: rebel.false_corners_per_frame "),
+            std::string::npos)
+      << failed.err;
 
   const CommandResult missing = run({"--baseline", "no_such", "--out", "other"});
   EXPECT_EQ(missing.exit_code, 2);
@@ -512,7 +529,7 @@ TEST_F(Suite, ConsoleReportAndJUnitGiveTheSameCounts) {
       nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
   EXPECT_EQ(data.at("verdict"), line);
   EXPECT_EQ(data.at("run_counts"), runs);
-  EXPECT_EQ(data.at("is_good"), false);
+  EXPECT_EQ(data.at("light"), "red");
   std::map<std::string, int> badges;
   for (const auto& one : data.at("scenarios")) ++badges[one.at("standings").at(0)];
   EXPECT_EQ(badges, (std::map<std::string, int>{{"error", 1}, {"failed", 1}, {"passed", 1}}));
@@ -591,7 +608,7 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
   scenario.name = "a<b & \"c\"";
   scenario.runs.emplace_back().error = "bad <byte> \xff, control \x1b[K, letter \xc3\xa9\nmore";
   const test::TemporaryFolder folder;
-  write_junit(folder.path() / kJunitFile, suite);
+  write_junit(folder.path() / kJunitFile, suite, {}, {});
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.LoadFile((folder.path() / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
   const auto* element = document.RootElement()->FirstChildElement();
@@ -602,6 +619,25 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
                                             "\xc3\xa9");
   EXPECT_STREQ(error->GetText(), R"(bad <byte> \xff, control \x1b[K, letter )"
                                  "\xc3\xa9\nmore\nreport.html#a%3Cb%20&%20%22c%22/seed-0");
+}
+
+TEST(JUnit, HasATestCaseOfTheBaseline) {
+  const test::TemporaryFolder folder;
+  const auto kind_of = [&](Finding finding) -> std::string {
+    write_junit(folder.path() / kJunitFile, suite_with({scenario_with("near", "rebel.f1", {0.5})}),
+                {}, {.finding = finding, .line = "why"});
+    tinyxml2::XMLDocument document;
+    EXPECT_EQ(document.LoadFile((folder.path() / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
+    EXPECT_EQ(document.RootElement()->IntAttribute("tests"), 2);
+    const auto* baseline = document.RootElement()->LastChildElement();
+    EXPECT_STREQ(baseline->Attribute("name"), "baseline");
+    const auto* problem = baseline->FirstChildElement()->FirstChildElement();
+    return problem ? problem->Name() : "";
+  };
+  EXPECT_EQ(kind_of(Finding::regressed), "failure");
+  EXPECT_EQ(kind_of(Finding::not_judged), "error");
+  EXPECT_EQ(kind_of(Finding::uncertain), "");
+  EXPECT_EQ(kind_of(Finding::equal), "");
 }
 
 // ---- Failures of processes

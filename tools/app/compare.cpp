@@ -21,6 +21,7 @@ Compared compare(const CompareRequest& request) {
   compared.comparison =
       suite::compare(compared.before, compared.after,
                      [&](std::string_view metric) { return wanted.is_in(metric); });
+  if (request.allow_missing) compared.comparison.missing.clear();
   if (compared.comparison.scenarios.empty()) {
     throw std::runtime_error(
         fmt::format("{} and {} have no scenario in common; give two suites of the same "

@@ -13,10 +13,11 @@
 namespace lcs::app {
 
 struct CompareRequest {
-  std::string before, after;  ///< suite.json, or its folder
-  std::string metric;         ///< regular expression; "": every metric
-  std::string markdown;       ///< folder for the summary of a merge request; "": none
-  std::string pictures_at;    ///< address of its pictures; "": beside it
+  std::string before, after;   ///< suite.json, or its folder
+  std::string metric;          ///< regular expression; "": every metric
+  std::string markdown;        ///< folder for the summary of a merge request; "": none
+  bool allow_missing = false;  ///< judges though runs of `before` are missing in `after`
+  std::string pictures_at;     ///< address of its pictures; "": beside it
 };
 
 Options options_of(CompareRequest& request);

@@ -99,6 +99,9 @@ void add_place(Options& all, SuitePlace& place) {
   all.add_out(place.out, SuitePlace::kDefault);
   all.add("--baseline", "FILE", &place.baseline,
           "An earlier suite.json or its folder, to show changes against");
+  all.add("--allow-missing", "", &place.allow_missing,
+          "Judge also if runs of the baseline are missing, or have another number of frames",
+          {.needs = "--baseline"});
 }
 
 constexpr RecordingKey kRecordingKeys[] = {
@@ -347,6 +350,8 @@ Options options_of(CompareRequest& request) {
   all.add("--pictures-at", "URL", &request.pictures_at,
           "Address where the pictures will be; beside summary.md if not given",
           {.needs = "--markdown"});
+  all.add("--allow-missing", "", &request.allow_missing,
+          "Judge also if runs of BEFORE are missing in AFTER, or have another number of frames");
   return all;
 }
 

@@ -56,7 +56,6 @@ SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::Su
         folder.staging() / part_of(other.detector, result.detector) / suite::kSuiteFile, other);
   }
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
-  suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   if (!others.empty()) {
     files::write_file(folder.staging() / suite::kStandingFile,
                       suite::standing_table(result, others));
@@ -69,10 +68,12 @@ SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::Su
     before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(place.baseline)});
     caller.warn(other_inputs(before->folder, folder.staging()));
     comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
+    if (place.allow_missing) comparison->missing.clear();
     against.emplace(report::Against{*before, *comparison});
   }
   const suite::SuiteVerdict verdict = suite::verdict_of(
       made, before ? &*before : nullptr, comparison ? &*comparison : nullptr, others);
+  suite::write_junit(folder.staging() / suite::kJunitFile, result, others, verdict);
   report::write_report(folder.staging() / report::kReportFile, made, verdict,
                        against ? &*against : nullptr);
   if (!result.split.empty()) {

@@ -22,6 +22,7 @@ struct SuitePlace {
   static constexpr const char* kDefault = "out/suite";
   std::string out = kDefault;  ///< folder
   std::string baseline;        ///< suite.json or its folder; "": none
+  bool allow_missing = false;  ///< judges though runs of the baseline are missing
 
   bool is_named() const { return out != kDefault; }
 };

@@ -5,6 +5,7 @@
 #include "scenarios/input/message.h"
 #include "tools/app/compare.h"
 #include "tools/lcs/commands.h"
+#include "tools/lcs/suite_end.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -23,15 +24,20 @@ constexpr const char* kCompareHelp = R"(Examples:
   lcs compare out/before out/after --metric 'rebel\.f1' --all
   lcs compare out/before out/after --markdown out/summary        for a pull request
 
-The verdict is on the means over all scenarios and over each group. A mean has changed if its change exceeds
-the least change that matters by more than chance explains, given the number of means
-(tools/suite/README.md). Each is printed with the 95 % interval of its change. Single scenarios are listed
-below; one with a single seed has no verdict. Times are never judged.
+The verdict is one of four (tools/suite/README.md). It rests on the means of four main figures over all
+scenarios: F1, false corners a frame, false objects and boxes of movers; with --metric on the figures that it names.
+  regressed            a main mean got worse by more than matters and than chance explains, or a run that had
+                       figures before ended with an error
+  not judged           runs of BEFORE are missing in AFTER or have other frames, or no main figure is in both
+  no regression found  but a loss is not excluded, whose size is printed; or another mean or a scenario
+                       regressed, or a criterion failed
+  equal                no main figure has lost more than the printed amount
+Other means and single scenarios are a list below; one with a single seed has no verdict. Times are never judged.
 
 Exit codes:
-  0  no mean regressed
-  1  a mean regressed, or a run that had figures before ended with an error
-  2  a suite cannot be read, or the two have nothing in common
+  0  equal, or no regression found
+  1  regressed
+  2  not judged, a suite cannot be read, or the two have nothing in common
 )";
 
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
@@ -47,8 +53,8 @@ ExitCode compare(const CompareOptions& options) {
   print_suite("before", options.request.before, before);
   print_suite("after ", options.request.after, after);
   print_out("{}", input::printable(suite::text_of(comparison, options.all)));
-  print_out("{}\n", coloured(verdict.line, verdict.is_good));
-  return comparison.has_regressed() ? kRegressed : kFine;
+  print_out("{}\n", coloured(verdict.line, verdict.light));
+  return exit_code_of(*verdict.finding);
 }
 
 app::Options options_of(CompareOptions& options) {

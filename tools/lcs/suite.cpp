@@ -64,9 +64,9 @@ Files written to the folder, all or none:
 
 Exit codes:
   0  fine
-  1  a required criterion is not met; with --fail-on-regression also: a mean regressed, or a run
-     that had figures before ended with an error
-  2  a run ended with an error, or nothing could be run
+  1  a required criterion is not met; with --fail-on-regression also: regressed from the baseline
+  2  a run ended with an error, or nothing could be run; with --fail-on-regression also: not judged, as runs
+     of the baseline are missing
   130  interrupted (Ctrl-C): finished runs are kept, an earlier suite is as it was
 )";
 

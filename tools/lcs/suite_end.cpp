@@ -51,6 +51,11 @@ void add_suite_end(app::Options& all, SuiteEndOptions& options) {
   all.add_quiet(options.quiet);
 }
 
+ExitCode exit_code_of(suite::Finding finding) {
+  constexpr std::array<ExitCode, 4> kByFinding{kRegressed, kError, kFine, kFine};
+  return kByFinding.at(static_cast<std::size_t>(finding));
+}
+
 ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
                     const SuiteEndOptions& options) {
   const auto& [result, others, comparison, verdict, folder] = made;
@@ -60,7 +65,7 @@ ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
     if (!result.split.empty()) print_out("{}", told_of_worlds(result));
     if (comparison) print_changes(verdict, *comparison, place.baseline);
     // The verdict comes last, where the terminal ends.
-    print_out("{}\n{}; results in {}\n", coloured(input::printable(verdict.line), verdict.is_good),
+    print_out("{}\n{}; results in {}\n", coloured(input::printable(verdict.line), verdict.light),
               suite::run_counts(result), folder.string());
   }
   warn(suite::warnings(result));
@@ -72,12 +77,10 @@ ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
       tell(fmt::format("{}: {}", other.detector, problem));
     }
   }
-  const bool is_worse = comparison && comparison->has_regressed();
-  if (!is_worse || !options.fail_on_regression) {
-    return kExitCodes.at(static_cast<std::size_t>(outcome));
-  }
-  tell(fmt::format("against {}: {}", place.baseline, verdict.line));
-  return outcome == suite::Outcome::error ? kError : kRegressed;
+  const ExitCode by_baseline =
+      verdict.finding && options.fail_on_regression ? exit_code_of(*verdict.finding) : kFine;
+  if (by_baseline != kFine) tell(fmt::format("against {}: {}", place.baseline, verdict.line));
+  return std::max(by_baseline, kExitCodes.at(static_cast<std::size_t>(outcome)));
 }
 
 }  // namespace lcs::tools

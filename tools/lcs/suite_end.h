@@ -23,6 +23,9 @@ std::unique_ptr<app::SuiteWatch> suite_progress(bool quiet);
 /// Adds `--fail-on-regression`, `--worst-first` and `--quiet`.
 void add_suite_end(app::Options& all, SuiteEndOptions& options);
 
+/// kRegressed, kError if nothing is judged, else kFine.
+ExitCode exit_code_of(suite::Finding finding);
+
 /// Prints the tables and messages of a suite.
 ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
                     const SuiteEndOptions& options);

@@ -2,6 +2,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "scenarios/input/message.h"
@@ -43,6 +44,11 @@ class ConsoleSuiteProgress : public app::SuiteWatch {
     if (quiet_) return;
     wipe();
     const suite::RunResult& own = *runs.front();
+    // A run alone neither passes nor fails criteria over seeds, nor none.
+    const bool is_judged =
+        !own.criteria.empty() &&
+        std::ranges::all_of(own.criteria, [](const auto& one) { return one.over == "seed"; });
+    const bool is_only_done = own.outcome == suite::Outcome::passed && !is_judged;
     std::string figures;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const scoring::Metric& metric = scoring::metric(scoring::kF1);
@@ -53,7 +59,8 @@ class ConsoleSuiteProgress : public app::SuiteWatch {
       figures += fmt::format(", {}{}{}", label, by, metric.number(f1));
     }
     tell(fmt::format("[run {}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total,
-                     scenario, own.seed, suite::word_of(own.outcome), figures, own.wall_s));
+                     scenario, own.seed, is_only_done ? "done" : suite::word_of(own.outcome),
+                     figures, own.wall_s));
     shown_ = {};
   }
 

@@ -91,7 +91,8 @@ void warn(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) tell("warning: " + line);
 }
 
-std::string coloured(const std::string& text, bool is_good) {
+std::string coloured(const std::string& text, suite::Light light) {
+  constexpr std::array<int, 3> kCodes{31, 33, 32};  // red, yellow, green
   const auto is = [](const char* variable, auto&& test) {
     const char* value = std::getenv(variable);
     return value != nullptr && test(std::string_view(value));
@@ -99,7 +100,9 @@ std::string coloured(const std::string& text, bool is_good) {
   const bool is_plain = ::isatty(STDOUT_FILENO) == 0 ||
                         is("NO_COLOR", [](auto value) { return !value.empty(); }) ||
                         is("TERM", [](auto value) { return value == "dumb"; });
-  return is_plain ? text : fmt::format("\x1b[{}m{}\x1b[0m", is_good ? 32 : 31, text);
+  return is_plain
+             ? text
+             : fmt::format("\x1b[{}m{}\x1b[0m", kCodes.at(static_cast<std::size_t>(light)), text);
 }
 
 void Terminal::check() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tools/app/caller.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 
@@ -43,9 +44,9 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// The text in green or red, if standard output is a terminal and the environment neither sets
+/// The text in a colour, if standard output is a terminal and the environment neither sets
 /// NO_COLOR (no-color.org) nor says that the terminal is dumb.
-std::string coloured(const std::string& text, bool is_good);
+std::string coloured(const std::string& text, suite::Light light);
 
 /// Shows on stderr what a function of the library says, and ends it after a signal.
 class Terminal : public app::Caller {

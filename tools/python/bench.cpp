@@ -175,11 +175,11 @@ py::list list_of(const std::vector<suite::Difference>& differences, const char* 
 }
 
 py::dict dict_of(const suite::Comparison& comparison, const suite::SuiteVerdict& verdict) {
-  return py::dict("verdict"_a = verdict.line, "regressed"_a = comparison.has_regressed(),
-                  "means"_a = list_of(comparison.groups, "group"),
-                  "scenarios"_a = list_of(comparison.differences, "scenario"),
-                  "incomparable"_a = comparison.incomparable,
-                  "text"_a = suite::text_of(comparison, false));
+  return py::dict(
+      "verdict"_a = verdict.line, "finding"_a = suite::word_of(*verdict.finding),
+      "regressed"_a = comparison.has_regressed(), "means"_a = list_of(comparison.groups, "group"),
+      "scenarios"_a = list_of(comparison.differences, "scenario"),
+      "incomparable"_a = comparison.incomparable, "text"_a = suite::text_of(comparison, false));
 }
 
 py::dict dict_of(const app::SuiteMade& made, PythonCaller& caller) {
@@ -323,7 +323,9 @@ Finished runs are kept if it raises or is interrupted, and the same call goes on
 
 before, after: folders, or their suite.json. metric: a regular expression.
 markdown: a folder for a summary in Markdown, whose pictures will be at the address pictures_at.
-Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, with group
+allow_missing: judge also if runs of before are missing in after.
+Returns a dict: verdict, a line; finding (regressed, not judged, no regression found, equal);
+regressed; means and scenarios: a dict for each figure, with group
 or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
 verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
 Raises Error for suites that cannot be read, or have nothing in common.)");

@@ -59,7 +59,7 @@ function head() {
   const what = data.is_run ? data.scenarios[0].name + ' by ' + data.detector + ', seed ' + runs[0].seed
     : 'Suite by ' + data.detector + ', ' + data.run_counts;
   document.getElementById('head').append(
-    el('h1', { class: data.is_good ? 'good' : 'bad' }, (data.is_run ? mainFigure(data.scenarios[0]) + ', ' : '') + data.verdict),
+    el('h1', { class: { green: 'good', yellow: 'doubt', red: 'bad' }[data.light] }, (data.is_run ? mainFigure(data.scenarios[0]) + ', ' : '') + data.verdict),
     el('p', { class: 'quiet' }, what + (hasBaseline ? ', against ' + data.baseline.folder : '') +
       (data.sets.length ? ', with ' + data.sets.join(', ') : ''), data.note ? [el('br'), data.note] : null));
 }

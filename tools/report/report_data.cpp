@@ -377,7 +377,7 @@ files::Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdi
   const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
   files::Json data = {
       {"verdict", verdict.line},
-      {"is_good", verdict.is_good},
+      {"light", suite::word_of(verdict.light)},
       {"run_counts", suite::run_counts(suite.suite)},
       {"note", verdict.note},
       {"remarks", remarks_of(verdict)},

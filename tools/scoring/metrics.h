@@ -3,6 +3,7 @@
 /// description. Terminal tables, pages, comparisons and SCORING.md use it.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -60,7 +61,10 @@ struct Metric {
 /// `dimension.mean` / `dimension.five_frame_mean`. Only suites have it (`suite::figure_of`), not
 /// metrics.json: its `compute` is empty.
 inline constexpr std::string_view kSizeShare = "size_share";
-inline constexpr std::string_view kF1 = "rebel.f1";  ///< the figure that suites are judged by
+inline constexpr std::string_view kF1 = "rebel.f1";
+/// The few figures that the verdict on two suites rests on.
+inline constexpr std::array<std::string_view, 4> kMainFigures{
+    kF1, "rebel.false_corners_per_frame", "rebel.false_objects_per_100_frames", "square.recall_50"};
 
 /// All metrics in the order of metrics.json, then `kSizeShare`.
 const std::vector<Metric>& metrics();

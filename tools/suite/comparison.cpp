@@ -1,18 +1,26 @@
 #include "tools/suite/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "tools/scoring/statistics.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
 namespace {
+
+constexpr std::string_view kFrames = "frames";
+
+/// A loss up to this many times the least change that matters counts as none.
+constexpr double kMargin = 2;
 
 struct RunPair {
   const RunResult* before;
@@ -36,9 +44,17 @@ class Comparer {
  public:
   Comparer(const SuiteResult& before, const SuiteResult& after,
            const std::function<bool(std::string_view)>& is_wanted)
-      : before_(before), after_(after), by_world_(is_of_worlds(after)) {
+      : before_(before), after_(after) {
+    result_.is_of_worlds = is_of_worlds(after);
     for (const scoring::Metric& metric : scoring::metrics()) {
       if (!metric.is_time() && is_wanted(metric.key)) compared_.push_back(&metric);
+    }
+    for (const std::string_view key : scoring::kMainFigures) {
+      if (is_wanted(key)) main_.emplace(key);
+    }
+    if (!main_.empty()) return;
+    for (const scoring::Metric* metric : compared_) {
+      if (metric->scale.better != scoring::Direction::neutral) main_.insert(metric->key);
     }
   }
 
@@ -49,6 +65,7 @@ class Comparer {
         compare(scenario, *other);
       } else {
         note("{}: only before", scenario.name);
+        result_.missing.push_back(scenario.name);
       }
     }
     for (const ScenarioResult& scenario : after_.scenarios) {
@@ -76,6 +93,7 @@ class Comparer {
   std::vector<RunPair> pair_up(const ScenarioResult& before, const ScenarioResult& after) {
     if (const auto seeds = seeds_without(before, after); !seeds.empty()) {
       note("{}: {} only before", before.name, seed_list(seeds));
+      result_.missing.push_back(fmt::format("{} {}", before.name, seed_list(seeds)));
     }
     if (const auto seeds = seeds_without(after, before); !seeds.empty()) {
       note("{}: {} only after", before.name, seed_list(seeds));
@@ -92,6 +110,11 @@ class Comparer {
                                                     : "before";
         note("{}: seed {} ended with an error {}", before.name, run.seed, when);
         continue;
+      }
+      const auto had = figure_of(run, kFrames), has = figure_of(*other, kFrames);
+      if (had != has && had && has) {
+        note("{}: seed {} has {} frames, before {}", before.name, run.seed, *has, *had);
+        result_.missing.push_back(result_.incomparable.back());
       }
       pairs.push_back({&run, other});
     }
@@ -115,7 +138,10 @@ class Comparer {
       const std::optional<double> f1_is = figure_of(*pair.after, scoring::kF1);
       if (f1_was && f1_is) f1_changes.push_back(*f1_is - *f1_was);
     }
-    if (!lost.empty()) note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
+    if (!lost.empty()) {
+      note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
+      result_.undefined += main_.contains(metric.key);
+    }
     if (!gained.empty()) {
       note("{}: {} undefined before, {}", scenario, metric.key, seed_list(gained));
     }
@@ -152,15 +178,28 @@ class Comparer {
     if (before.empty()) return;
     result_.groups.push_back(
         difference_of(group, metric, *scoring::mean(before), *scoring::mean(after),
-                      by_world_ ? interval_of(by_world) : interval_of_strata(strata)));
+                      result_.is_of_worlds ? interval_of(by_world) : interval_of_strata(strata)));
     result_.groups.back().pairs = static_cast<int>(before.size());
   }
 
-  /// The means have one verdict in common, so that many figures do not make a false alarm likely.
   void judge_means() {
+    if (result_.groups.empty()) return;
+    const std::string whole =
+        std::ranges::max_element(result_.groups, {}, &Difference::pairs)->scenario;
+    for (Difference& mean : result_.groups) {
+      mean.is_main = mean.scenario == whole && main_.contains(mean.metric);
+    }
+    judge_means(true);
+    judge_means(false);
+  }
+
+  /// The main means have one verdict in common, and so have the others, so that many figures do not
+  /// make a false alarm likely.
+  void judge_means(bool main) {
     std::vector<Difference*> judged;
     std::vector<double> chances;
     for (Difference& mean : result_.groups) {
+      if (mean.is_main != main) continue;
       if (!mean.change.half) {
         if (mean.weight > 1) mean.verdict = Change::unknown;
         continue;
@@ -173,7 +212,7 @@ class Comparer {
     for (std::size_t i = 0; i < judged.size(); ++i) {
       if (real[i]) judged[i]->verdict = direction_of(*judged[i], f1_change(judged[i]->scenario));
     }
-    result_.judged_means = static_cast<int>(judged.size());
+    result_.judged_means += static_cast<int>(judged.size());
   }
 
   static double least_of(const Difference& difference) {
@@ -213,8 +252,8 @@ class Comparer {
 
   const SuiteResult& before_;
   const SuiteResult& after_;
-  bool by_world_;
   std::vector<const scoring::Metric*> compared_;
+  std::set<std::string, std::less<>> main_;  // the keys of the main figures
   std::map<std::pair<std::string, std::string>, std::vector<double>> changes_;
   std::map<std::string, double> f1_changes_;  // means over the seeds, by scenario
   Comparison result_;
@@ -275,6 +314,22 @@ const char* word_of(Change change) {
   return kWords.at(static_cast<std::size_t>(change));
 }
 
+const char* word_of(Finding finding) {
+  constexpr std::array<const char*, 4> kWords{"regressed", "not judged", "no regression found",
+                                              "equal"};
+  return kWords.at(static_cast<std::size_t>(finding));
+}
+
+double Difference::possible_loss() const {
+  if (change.mean == 0 && !change.half) return 0;
+  const double loss = better == scoring::Direction::higher ? -change.mean : change.mean;
+  return std::max(0.0, loss + change.half.value_or(std::numeric_limits<double>::infinity()));
+}
+
+double Difference::margin() const {
+  return kMargin * scoring::least_change(scoring::metric(metric).scale, before);
+}
+
 const char* Difference::real_word() const {
   return verdict == Change::regressed || verdict == Change::improved ? word_of(verdict) : "";
 }
@@ -326,7 +381,111 @@ std::optional<Change> Comparison::of_scenario(const std::string& name) const {
 }
 
 bool Comparison::has_regressed() const {
-  return !lost.empty() || count_means(Change::regressed) > 0;
+  return !lost.empty() || std::ranges::any_of(groups, [](const Difference& mean) {
+    return mean.is_main && mean.verdict == Change::regressed;
+  });
+}
+
+Finding Comparison::finding(int failed_criteria) const {
+  if (has_regressed()) return Finding::regressed;
+  const bool is_judged = std::ranges::any_of(groups, &Difference::is_main);
+  if (!is_judged || !missing.empty()) return Finding::not_judged;
+  const bool is_excluded = std::ranges::none_of(groups, [](const Difference& mean) {
+    return mean.verdict == Change::regressed ||
+           (mean.is_main && mean.possible_loss() > mean.margin());
+  });
+  const bool all_stand = failed_criteria == 0 && undefined == 0 && with(Change::regressed).empty();
+  return is_excluded && all_stand ? Finding::equal : Finding::uncertain;
+}
+
+namespace {
+
+/// Such as "a loss of up to 0.063 of rebel.f1 and 3.1 of rebel.false_corners_per_frame is not
+/// excluded (some 590 worlds would tell 0.02 apart)"; empty if none is larger than its margin.
+std::string losses_text(const Comparison& comparison) {
+  std::vector<std::string> losses;
+  const Difference* widest = nullptr;
+  // How many times as many runs would have an interval of the margin, with enough of them for the
+  // normal distribution.
+  const auto times = [](const Difference& mean) {
+    constexpr double kNormal95 = 1.96;
+    return std::max(2.0, std::pow(kNormal95 * mean.change.error / mean.margin(), 2));
+  };
+  for (const Difference& mean : comparison.groups) {
+    if (!mean.is_main || mean.possible_loss() <= mean.margin()) continue;
+    losses.push_back(mean.change.half
+                         ? fmt::format("{} of {}", number(mean.possible_loss()), mean.metric)
+                         : fmt::format("any size of {}, whose noise is unknown", mean.metric));
+    if (widest == nullptr || times(mean) > times(*widest)) widest = &mean;
+  }
+  if (losses.empty()) return "";
+  const std::string text =
+      fmt::format("a loss of up to {} is not excluded", fmt::join(losses, ", "));
+  if (!widest->change.half) return text;
+  const double more = times(*widest);
+  return text + fmt::format(" ({} would tell {:.2g} of {} apart)",
+                            comparison.is_of_worlds
+                                ? fmt::format("some {:.0f} worlds", more * widest->pairs)
+                                : fmt::format("some {:.0f} times as many seeds", std::ceil(more)),
+                            widest->margin(), widest->metric);
+}
+
+}  // namespace
+
+std::string text_of(Finding finding, const Comparison& comparison, int failed_criteria) {
+  std::vector<std::string> parts;
+  const auto add_count = [&](std::ptrdiff_t count, const char* noun, const char* what) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", counted(count, noun), what));
+  };
+  const auto regressed = [&](bool main) {
+    return std::ranges::count_if(comparison.groups, [&](const Difference& mean) {
+      return mean.is_main == main && mean.verdict == Change::regressed;
+    });
+  };
+  switch (finding) {
+    case Finding::regressed:
+      for (const Difference& mean : comparison.groups) {
+        if (!mean.is_main || mean.verdict != Change::regressed) continue;
+        parts.push_back(fmt::format("{} {}", mean.metric, change_text(mean)));
+      }
+      add_count(std::ssize(comparison.lost), "scenario", "lost a run by an error");
+      break;
+    case Finding::not_judged:
+      if (comparison.missing.empty()) {
+        parts.emplace_back("no main figure is in both suites");
+      } else {
+        parts.push_back(
+            fmt::format("missing or other frames than before: {}{}; --allow-missing "
+                        "judges the others",
+                        comparison.missing.front(),
+                        comparison.missing.size() > 1
+                            ? fmt::format(" and {} more", comparison.missing.size() - 1)
+                            : ""));
+      }
+      break;
+    case Finding::uncertain:
+      if (std::string losses = losses_text(comparison); !losses.empty()) {
+        parts.push_back(std::move(losses));
+      }
+      add_count(regressed(false), "other mean", "regressed");
+      add_count(std::ranges::count_if(comparison.scenarios,
+                                      [&](const auto& name) {
+                                        return comparison.of_scenario(name) == Change::regressed;
+                                      }),
+                "scenario", "regressed");
+      if (failed_criteria > 0) {
+        parts.push_back(fmt::format("failed criteria and runs: {}", failed_criteria));
+      }
+      add_count(comparison.undefined, "main figure", "of a scenario is no longer defined");
+      return fmt::format("{}, but {}", word_of(finding), fmt::join(parts, ", "));
+    case Finding::equal:
+      for (const Difference& mean : comparison.groups) {
+        if (!mean.is_main) continue;
+        parts.push_back(fmt::format("{} of {}", number(mean.possible_loss()), mean.metric));
+      }
+      return fmt::format("{}: no loss above {}", word_of(finding), fmt::join(parts, ", "));
+  }
+  return fmt::format("{}: {}", word_of(finding), fmt::join(parts, ", "));
 }
 
 Comparison compare(const SuiteResult& before, const SuiteResult& after,

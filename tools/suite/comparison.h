@@ -28,6 +28,18 @@ enum class Change {
 /// The word for the user, such as "regressed".
 const char* word_of(Change change);
 
+/// What a comparison has shown, by the main figures (`scoring::kMainFigures`).
+enum class Finding {
+  regressed,   ///< the mean of a main figure regressed, or a run has lost its figures
+  not_judged,  ///< no main figure is compared, or runs of the earlier suite are missing
+  uncertain,   ///< none regressed, but a loss that matters is not excluded, or another figure, a
+               ///< scenario or a criterion failed
+  equal,       ///< the main figures have lost less than matters
+};
+
+/// The word for the user, such as "no regression found".
+const char* word_of(Finding finding);
+
 struct Difference {
   std::string scenario;  ///< name of the scenario or group
   std::string metric;
@@ -38,22 +50,35 @@ struct Difference {
   Change verdict = Change::none;
   /// (|mean| - half) of the change, over the least change that matters; above 1 if real.
   double weight = 0;
+  bool is_main = false;  ///< whether the finding rests on it
 
   /// The word of a verdict that is a regression or an improvement; else "".
   const char* real_word() const;
+
+  /// The worse end of the interval of the change, >= 0; infinite if a change has an unknown noise.
+  double possible_loss() const;
+  /// A loss up to this one counts as none: twice the least change that matters.
+  double margin() const;
 };
 
 struct Comparison {
   std::vector<Difference> differences;  ///< all compared figures, also unchanged ones
-  /// Likewise for the means over each group, and over all scenarios if no group has them all. Their
-  /// verdicts hold together: at most one in twenty comparisons of equals has any that is real.
+  /// Likewise for the means over each group, and over all scenarios if no group has them all. Main
+  /// ones are those of `scoring::kMainFigures` over the largest group, or if none of these figures
+  /// is wanted, of all. The verdicts of the main ones hold together, and so do those of the others:
+  /// at most one in twenty comparisons of equals has any that is real.
   std::vector<Difference> groups;
   /// Messages on data of only one side: scenarios, seeds, figures that the other side leaves
   /// undefined, runs that have no figures on the other side.
   std::vector<std::string> incomparable;
   std::vector<std::string> scenarios;  ///< names of those on both sides
-  int judged = 0;                      ///< number of differences of figures that are not neutral
-  int judged_means = 0;                ///< likewise of `groups`, those with known noise
+  /// Messages on runs of the earlier suite that the later one lacks, or has with another number of
+  /// frames.
+  std::vector<std::string> missing;
+  int undefined = 0;  ///< main figures of single scenarios that only the earlier suite defines
+  bool is_of_worlds = false;  ///< the intervals of `groups` are over worlds, else over seeds
+  int judged = 0;             ///< number of differences of figures that are not neutral
+  int judged_means = 0;       ///< likewise of `groups`, those with known noise
   /// Scenarios with a run that had figures before and has none now. Each counts as a regression,
   /// whatever its other figures are.
   std::set<std::string> lost;
@@ -65,9 +90,15 @@ struct Comparison {
   /// Regressed if a figure is or a run is lost; else unknown, else improved if a figure is; else
   /// none. Absent for a scenario without any compared figure.
   std::optional<Change> of_scenario(const std::string& name) const;
-  /// Whether a mean has regressed or a run is lost. Single scenarios do not count.
+  /// Whether a main mean has regressed or a run is lost.
   bool has_regressed() const;
+  /// \param failed_criteria of the later suite, and its runs with an error.
+  Finding finding(int failed_criteria) const;
 };
+
+/// The finding in words, with its reasons: such as "regressed: rebel.f1 0.861 -> 0.612 [-0.270,
+/// -0.228]" or "no regression found, but a loss of up to 0.063 of rebel.f1 is not excluded".
+std::string text_of(Finding finding, const Comparison& comparison, int failed_criteria);
 
 /// Compares the metrics for which `is_wanted` is true. Times are never compared.
 Comparison compare(const SuiteResult& before, const SuiteResult& after,

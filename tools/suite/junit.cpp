@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace lcs::suite {
 namespace {
 
 using tinyxml2::XMLElement;
+
+constexpr const char* kBaseline = "baseline";
 
 void set(XMLElement& element, const char* name, const std::string& value) {
   element.SetAttribute(name, input::printable(value).c_str());
@@ -47,23 +50,40 @@ void add_case(XMLElement& parent, const Judgement& one) {
   problem.SetText(input::printable(fmt::format("{}\nreport.html#{}", message, one.anchor)).c_str());
 }
 
+Judgement judgement_of(Finding finding, const std::string& line) {
+  constexpr std::array<Judged, 4> kByFinding{Judged::failed, Judged::error, Judged::met,
+                                             Judged::met};
+  return {.scenario = kBaseline,
+          .file = {},
+          .name = "main figures",
+          .judged = kByFinding.at(static_cast<std::size_t>(finding)),
+          .message = line,
+          .anchor = {}};
+}
+
 }  // namespace
 
 void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
-                 std::span<const SuiteResult> others) {
-  const std::vector<Judgement> all = judgements_of(suite, others);
+                 std::span<const SuiteResult> others, const SuiteVerdict& verdict) {
+  std::vector<Judgement> all = judgements_of(suite, others);
+  std::vector<std::string> names;
+  for (const ScenarioResult& scenario : suite.scenarios) names.push_back(scenario.name);
+  if (verdict.finding) {
+    names.emplace_back(kBaseline);
+    all.push_back(judgement_of(*verdict.finding, verdict.line));
+  }
   tinyxml2::XMLDocument document;
   document.InsertEndChild(document.NewDeclaration());
   XMLElement& root = *document.NewElement("testsuites");
   document.InsertEndChild(&root);
   set(root, "name", "lcs suite, detector " + suite.detector);
   set_counts(root, all);
-  for (const ScenarioResult& scenario : suite.scenarios) {
+  for (const std::string& name : names) {
     XMLElement& element = *root.InsertNewChildElement("testsuite");
-    set(element, "name", scenario.name);
+    set(element, "name", name);
     std::vector<Judgement> of_scenario;
     for (const Judgement& one : all) {
-      if (one.scenario == scenario.name) of_scenario.push_back(one);
+      if (one.scenario == name) of_scenario.push_back(one);
     }
     set_counts(element, of_scenario);
     for (const Judgement& one : of_scenario) add_case(element, one);

@@ -5,6 +5,8 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -183,9 +185,12 @@ std::string remarks_text(const SuiteVerdict& verdict) {
 void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
                          const SuiteInFolder& after, const Comparison& comparison,
                          const SuiteVerdict& verdict, const std::string& pictures_at) {
+  constexpr std::array<const char*, 3> kLights{"🔴", "🟡", "🟢"};
+  std::string headline = word_of(verdict.finding.value());
+  headline.front() = static_cast<char>(std::toupper(headline.front()));
   std::string text =
-      fmt::format("### {} {}\n\n{}\n", comparison.has_regressed() ? "🔴" : "🟢",
-                  comparison.has_regressed() ? "Regressed" : "Not regressed", cell(verdict.line));
+      fmt::format("### {} {}\n\n{}\n", kLights.at(static_cast<std::size_t>(verdict.light)),
+                  headline, cell(verdict.line));
   text += means_table(comparison);
   if (const auto grown = most_grown(before, after)) text += event_text(folder, *grown, pictures_at);
   text += remarks_text(verdict);

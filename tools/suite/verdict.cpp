@@ -99,6 +99,7 @@ void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
 std::string line_of(const SuiteResult& suite, const Comparison* comparison,
                     const CriteriaCounts& criteria) {
   if (!comparison) return text_of(criteria);
+  const int unmet = criteria.failed + criteria.errors;
   std::map<std::optional<Change>, int> count;
   for (const std::string& name : comparison->scenarios) ++count[comparison->of_scenario(name)];
   const std::set<std::string> common(comparison->scenarios.begin(), comparison->scenarios.end());
@@ -106,14 +107,20 @@ std::string line_of(const SuiteResult& suite, const Comparison* comparison,
     count[std::nullopt] += !common.contains(scenario.name);
   }
   std::string line = fmt::format(
-      "{}: of {} {} regressed, {} improved; of {} {} regressed, {} improved, {} as before",
-      comparison->has_regressed() ? "regressed" : "not regressed",
+      "{}; of {} {} regressed, {} improved; of {} {} regressed, {} improved, {} as before",
+      text_of(comparison->finding(unmet), *comparison, unmet),
       counted(comparison->judged_means, "mean"), comparison->count_means(Change::regressed),
       comparison->count_means(Change::improved), counted(std::ssize(suite.scenarios), "scenario"),
       count[Change::regressed], count[Change::improved], count[Change::none]);
   if (count[Change::unknown] > 0) line += fmt::format(", {} unknown", count[Change::unknown]);
   if (count[std::nullopt] > 0) line += fmt::format(", {} not compared", count[std::nullopt]);
   return fmt::format("{}; {}", line, text_of(criteria));
+}
+
+Light light_of(const Comparison* comparison, int unmet) {
+  if (!comparison) return unmet > 0 ? Light::red : Light::green;
+  constexpr std::array<Light, 4> kByFinding{Light::red, Light::red, Light::yellow, Light::green};
+  return kByFinding.at(static_cast<std::size_t>(comparison->finding(unmet)));
 }
 
 // ---- Remarks
@@ -228,10 +235,12 @@ SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
     return std::pair(a.worst(), -a.weight) < std::pair(b.worst(), -b.weight);
   });
   const CriteriaCounts criteria = count_criteria(judgements_of(after.suite, others));
-  const bool has_regressed = comparison && comparison->has_regressed();
-  SuiteVerdict verdict{.line = line_of(after.suite, comparison, criteria),
-                       .is_good = criteria.failed + criteria.errors == 0 && !has_regressed,
-                       .note = comparison ? comparison->note() : ""};
+  const int unmet = criteria.failed + criteria.errors;
+  SuiteVerdict verdict{
+      .finding = comparison ? std::optional(comparison->finding(unmet)) : std::nullopt,
+      .line = line_of(after.suite, comparison, criteria),
+      .light = light_of(comparison, unmet),
+      .note = comparison ? comparison->note() : ""};
   for (Weighed& one : all) verdict.remarks.push_back(std::move(one.remark));
   return verdict;
 }
@@ -250,6 +259,11 @@ std::string text_of(const std::vector<Standing>& standings) {
   std::vector<const char*> words;
   for (const Standing standing : standings) words.push_back(word_of(standing));
   return fmt::format("{}", fmt::join(words, ", "));
+}
+
+const char* word_of(Light light) {
+  constexpr std::array<const char*, 3> kWords{"red", "yellow", "green"};
+  return kWords.at(static_cast<std::size_t>(light));
 }
 
 const char* word_of(Standing standing) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,14 +35,20 @@ struct Remark {
   std::vector<std::string> reasons;  ///< texts, worst first
 };
 
+enum class Light {
+  red,  ///< regressed or not judged; without a baseline: a criterion failed, or a run by an error
+  yellow,  ///< a regression is neither found nor excluded
+  green,
+};
+
 struct SuiteVerdict {
-  /// Such as "not regressed: of 280 means 0 regressed, 1 improved; of 43 scenarios 1 regressed, 0
-  /// improved, 42 as before; 43 of 44 criteria met, 1 failed"; without a baseline the criteria
-  /// alone (`text_of(CriteriaCounts)`).
+  std::optional<Finding> finding;  ///< absent without a baseline
+  /// The finding and the counts: such as "equal: no loss above 0.004 of rebel.f1; of 280 means 0
+  /// regressed, 1 improved; of 43 scenarios 0 regressed, 0 improved, 43 as before; 44 of 44
+  /// criteria met, 0 failed"; without a baseline the criteria alone (`text_of(CriteriaCounts)`).
   std::string line;
-  /// False if a criterion failed, a run ended with an error or a mean regressed.
-  bool is_good = true;
-  std::string note;                  ///< a caveat on the line; may be empty
+  Light light = Light::green;
+  std::string note = {};             ///< a caveat on the line; may be empty
   std::vector<Remark> remarks = {};  ///< worst first; only scenarios with reasons
 };
 
@@ -55,6 +62,9 @@ SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
 
 /// The remarks and the note, without the line.
 std::string text_of(const SuiteVerdict& verdict);
+
+/// Such as "green".
+const char* word_of(Light light);
 
 /// The word for the user: such as "regressed".
 const char* word_of(Standing standing);

@@ -552,13 +552,15 @@ class Verdict(enum.IntEnum):
     NORMAL = ...
     PENDING = ...
     REBEL = ...
-def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '') -> dict[str, typing.Any]:
+def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '', allow_missing: bool = False) -> dict[str, typing.Any]:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
 
     before, after: folders, or their suite.json. metric: a regular expression.
     markdown: a folder for a summary in Markdown, whose pictures will be at the address pictures_at.
-    Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, with group
+    allow_missing: judge also if runs of before are missing in after.
+    Returns a dict: verdict, a line; finding (regressed, not judged, no regression found, equal);
+    regressed; means and scenarios: a dict for each figure, with group
     or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
     verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
     Raises Error for suites that cannot be read, or have nothing in common.
@@ -585,7 +587,7 @@ def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any
     Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
     NaN without theory) and verdict; text: as the program prints it.
     """
-def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '') -> dict[str, typing.Any]:
+def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False) -> dict[str, typing.Any]:
     """
     Joins the folders of the parts of a suite (shard). Returns as suite.
     """
@@ -621,7 +623,7 @@ def simulate(scenario: Scenario) -> Simulation:
         fail.
 
     """
-def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False, anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
