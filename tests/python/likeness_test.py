@@ -1,4 +1,4 @@
-"""tools/likeness.py on recordings of drawn pictures, of which the motion is known."""
+"""tests/worlds/likeness.py on recordings of drawn pictures, of which the motion is known."""
 
 import contextlib
 import csv
@@ -20,7 +20,7 @@ except ImportError:
     sys.exit(77)
 
 ROOT = Path(__file__).resolve().parents[2]
-spec = importlib.util.spec_from_file_location("likeness", ROOT / "tools" / "likeness.py")
+spec = importlib.util.spec_from_file_location("likeness", ROOT / "tests" / "worlds" / "likeness.py")
 likeness = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(likeness)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares simulated sequences with recordings by image statistics: are the worlds like the world?
 
-    PYTHONPATH=build/python python3 tools/likeness.py worlds=out/worlds suite=scenarios/suite street=street.yaml
+    PYTHONPATH=build/python python3 tests/worlds/likeness.py worlds=out/worlds suite=scenarios/suite street=street.yaml
 
 Each NAME=PATH is a group of runs: a scenario file, simulated or recorded (scenarios/README.md), or a folder, of
 which all scenario files are taken. Some pairs of neighbouring pictures of each run are measured, spread evenly.

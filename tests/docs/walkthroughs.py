@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the commands of guides/walkthroughs.md in a clean clone, and writes their times into that page.
 
-    tools/docs/walkthroughs.py [--keep DIR] [--check]
+    tests/docs/walkthroughs.py [--keep DIR] [--check]
 
 --keep DIR  makes the clone there, where its outputs stay; a temporary folder if not given
 --check     leaves the page as it is
