@@ -131,6 +131,84 @@ TEST_F(LabelsFile, FrameIdsOfAVideoCountFromOneIfTheyEndWithTheCountOfPictures) 
   EXPECT_EQ(from_zero.remarks.front(), "labels: frame_id is taken to count from 0");
 }
 
+/// Those of images with numbers in their names, as 000011.png.
+std::vector<std::string> join(Labels& all, std::size_t from, int count, std::size_t images,
+                              std::optional<std::size_t> named_first) {
+  std::vector<Labels::Recorded> recorded;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t named = from + static_cast<std::size_t>(i);
+    recorded.push_back({i, fmt::format("/drive/img/{:06}.jpg", named), named});
+  }
+  return all.join(recorded, images, named_first);
+}
+
+std::string mot(int first, int last) {
+  std::string rows;
+  for (int frame = first; frame <= last; ++frame)
+    rows += fmt::format("{},1,{},1,5,5\n", frame, frame);
+  return rows;
+}
+
+TEST_F(LabelsFile, AreJoinedByTheNumbersInTheNamesOfPictures) {
+  Labels part = labels(mot(1, 20));  // of pictures 11 to 20, and of others
+  const std::vector<std::string> told = join(part, 11, 10, 10, {});
+  EXPECT_EQ(part.of(0)->front().left, 11 - 1);
+  EXPECT_EQ(told.at(0),
+            "labels: frame 11 is 000011.jpg, by the numbers in the names of the pictures");
+  EXPECT_TRUE(told.at(1).starts_with("labels: 10 of 20 labelled pictures")) << told.at(1);
+  Labels from_zero = labels(mot(1, 4));  // MOT counts from 1, the names from 0
+  join(from_zero, 0, 4, 4, 0);
+  EXPECT_EQ(from_zero.of(0)->front().left, 1 - 1);
+  Labels kitti = labels("1 3 Car 0 0 1.5 10 20 30 40 1.4 1.6 4 2 1 9 -1.5\n");  // from 0
+  join(kitti, 1, 3, 3, 0);  // and picture 0 is missing
+  EXPECT_NE(kitti.of(0), nullptr);
+  Labels beyond = labels(mot(30, 40));
+  EXPECT_NE(
+      test::refusal_of<std::invalid_argument>([&] { join(beyond, 1, 20, 20, 1); }).find("0 of 11"),
+      std::string::npos);
+}
+
+TEST_F(LabelsFile, BeyondTheLastOfPicturesThatAreNotCountedAreRefused) {
+  Labels all = labels(mot(3, 9));
+  std::vector<Labels::Recorded> video(6, {0, ""});
+  for (int i = 0; i < 6; ++i) video[static_cast<std::size_t>(i)].number = i;
+  EXPECT_NE(test::refusal_of<std::invalid_argument>([&] {
+              all.join(video, 6);
+            }).find("they go to frame 9, and the recording has 6 pictures"),
+            std::string::npos);
+  EXPECT_EQ(all.join(video, 9).at(0), "labels: frame 3 is picture 2, by the order of the pictures");
+}
+
+TEST_F(LabelsFile, OfTwoFoldersAreThoseOfTheFolderOfThePictures) {
+  const std::string text = R"(
+    {"images": [{"id": 1, "file_name": "CAM_FRONT/x.png"}, {"id": 2, "file_name": "CAM_BACK\\x.png"}],
+     "annotations": [{"image_id": 1, "bbox": [1, 0, 1, 1]}, {"image_id": 2, "bbox": [2, 0, 1, 1]}]})";
+  Labels all = labels(text);
+  all.join({{0, "/data/CAM_BACK/x.png"}});
+  EXPECT_EQ(all.of(0)->front().left, 2);
+  all.join({{0, "/data/CAM_FRONT/x.jpg"}});
+  EXPECT_EQ(all.of(0)->front().left, 1) << "with another ending";
+  EXPECT_EQ(
+      test::refusal_of<std::invalid_argument>([&] {
+        all.join({{0, "/data/pictures/x.png"}});
+      }),
+      "CAM_FRONT/x.png and CAM_BACK/x.png may both be the picture x.png: rename its folder to "
+      "that of one");
+}
+
+TEST_F(LabelsFile, OfCocoLeaveBoxesWithoutAreaOutAndTellTheirCategories) {
+  const Labels all = joined(labels(R"(
+    {"categories": [{"id": 1, "name": "car"}, {"id": 2, "name": "tree"}],
+     "images": [{"id": 1, "file_name": "0.png"}],
+     "annotations": [{"image_id": 1, "bbox": [1, 0, 3, 0], "category_id": 1},
+                     {"image_id": 1, "bbox": [2, 0, 1, 1], "category_id": 2}]})"),
+                            1);
+  ASSERT_EQ(all.of(0)->size(), 1u);
+  EXPECT_EQ(all.of(0)->front().left, 2);
+  EXPECT_EQ(all.remarks.at(0), "labels: boxes of all categories count as movers: car, tree");
+  EXPECT_EQ(all.remarks.at(1), "labels: 1 boxes have no area and are left out");
+}
+
 TEST_F(LabelsFile, OfSeveralVideosOneIsNamed) {
   const std::string text = R"(
     {"videos": [{"id": 1, "name": "a"}, {"id": 2, "name": "b"}],
@@ -185,9 +263,9 @@ TEST_F(LabelsFile, BrokenLabelsAreRefusedAtTheirLine) {
        "annotations[0].image_id is not the id of an image in the list"},
       {R"({"images": [{"id": 1, "file_name": "a"}, {"id": 1, "file_name": "b"}], "annotations": []})",
        "images[1].id is not one that no other image has"},
-      {R"({"images": [{"id": 1, "file_name": "x/a"}, {"id": 2, "file_name": "y/a"}], "annotations": []})",
+      {R"({"images": [{"id": 1, "file_name": "x/a"}, {"id": 2, "file_name": "x\\a"}], "annotations": []})",
        "images[1].file_name is not one that no other image has"},
-      {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 0, 1]}]})",
+      {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, -2, 1]}]})",
        "annotations[0].bbox is not a mover's box: the box has no area"},
       {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 1]}]})",
        "annotations[0].bbox is not a list of 4 numbers"},

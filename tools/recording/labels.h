@@ -30,26 +30,33 @@ class Labels {
   /// An image as the file of labels states it.
   struct Picture {
     std::optional<int> number;  ///< counts from `first`
-    std::string name;           ///< of its file, without folders; "": not given
+    std::string name;           ///< of its file, perhaps with folders; "": not given
     Boxes boxes;
   };
 
   /// An image of the recording.
   struct Recorded {
-    int number;        ///< among all images of the recording, from 0
-    std::string name;  ///< of its file, without folders; "" if it has no file
+    int number;                             ///< among all images of the recording, from 0
+    std::string name;                       ///< of its file, with its folders; "" if it has no file
+    std::optional<std::size_t> named = {};  ///< number in its name, if those of all images count
   };
 
   std::vector<Picture> pictures;
   std::optional<int> first;          ///< number of the recording's first image; absent: not stated
   std::vector<std::string> remarks;  ///< remarks on the file, a line each
 
-  /// Joins the labels with the images of a recording: by their names, by their names without
-  /// endings, or by their numbers; the first of these that finds an image decides. Where `first` is
-  /// not stated, numbers count from 1 if the least is 1 and the greatest the count of images.
-  /// \return lines: how many labelled images and boxes belong to the recording, and by which rule.
-  /// \throws std::invalid_argument if none does.
-  std::vector<std::string> join(const std::vector<Recorded>& recorded);
+  /// Joins the labels with the images of a recording: by their names, with those folders that find
+  /// most; by these without endings; or by their numbers. The first of these that finds an image
+  /// decides. Without numbers in their names, images are numbered by their order. Where `first` is
+  /// not stated, labels count from 1 if the least is 1 and the greatest the count of images, or if
+  /// the names do and there is no 0; else from 0.
+  /// \param images count in the whole recording, with missing ones; 0: up to the last of
+  /// `recorded`. \param named_first number in the name of the first image; absent: the numbers are
+  /// the labels'. \return lines: how many labelled images and boxes belong to the recording, and by
+  /// which rule. \throws std::invalid_argument if none does, if two labelled images have the name
+  /// of one, or if images are numbered by their order and labels go beyond the last.
+  std::vector<std::string> join(const std::vector<Recorded>& recorded, std::size_t images = 0,
+                                std::optional<std::size_t> named_first = {});
 
   /// \return the boxes of an image of the recording; null if it was not labelled. \pre joined
   const Boxes* of(int number) const;
@@ -66,7 +73,7 @@ class Labels {
 ///
 /// COCO: `images` with `id`, `file_name` and, for videos, `frame_id` and `video_id`; `annotations`
 /// with `image_id`, `bbox` and, where objects are tracked, `track_id`. Boxes with `iscrowd` are
-/// ignored. Every listed image was labelled.
+/// ignored, those without an area are left out and counted. Every listed image was labelled.
 ///
 /// KITTI tracking: rows "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM ...", frames
 /// and pixels from 0. DontCare is ignored. These are boxes of all objects, also of those at rest.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -188,13 +189,21 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
       const bool is_numbered = image.has("frame_id");
       if (is_numbered) picture.number = count_in(image["frame_id"]);
       if (!is_numbered || image.has("file_name")) {
-        // It may begin with folders.
-        picture.name = std::filesystem::path(image["file_name"].text()).filename();
+        picture.name = image["file_name"].text();
+        std::ranges::replace(picture.name, '\\', '/');
       }
       const bool is_new = seen.emplace(picture.name, picture.number.value_or(-1)).second;
       image[is_numbered ? "frame_id" : "file_name"].require(is_new, "one that no other image has");
       labels.pictures.push_back(picture);
     });
+    if (json.has("categories")) {
+      std::string names;
+      json["categories"].each([&](const files::JsonNode& category) {
+        if (category.has("name")) names += (names.empty() ? "" : ", ") + category["name"].text();
+      });
+      labels.remarks.push_back("labels: boxes of all categories count as movers: " + names);
+    }
+    int flat = 0;
     json["annotations"].each([&](const files::JsonNode& annotation) {
       const std::uint64_t image = id_in(annotation["image_id"]);
       const auto found = places.find(image);
@@ -202,6 +211,10 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
       if (!found->second) return;
       const int id = annotation.has("track_id") ? count_in(annotation["track_id"]) : -1;
       const auto [left, top, width, height] = annotation["bbox"].numbers<4>();
+      if (width * height == 0) {
+        ++flat;
+        return;
+      }
       try {
         LabelledBox box = box_of(id, left, top, width, height);
         const auto is_crowd = [](const files::JsonNode& flag) {
@@ -214,6 +227,9 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
         annotation["bbox"].require(false, fmt::format("a mover's box: {}", error.what()));
       }
     });
+    if (flat > 0) {
+      labels.remarks.push_back(fmt::format("labels: {} boxes have no area and are left out", flat));
+    }
     return labels;
   });
 }
@@ -229,7 +245,19 @@ std::string first_line(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
+namespace {
+
+/// The last parts of a path, at most `count`, between slashes.
+std::string end_of(const std::string& name, std::size_t count) {
+  std::size_t at = name.size();
+  for (; count > 0 && at > 0 && at != name.npos; --count) at = name.rfind('/', at - 1);
+  return at == name.npos || at == 0 ? name : name.substr(at + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded, std::size_t images,
+                                      std::optional<std::size_t> named_first) {
   picture_of_.clear();
   const auto join_by = [&](const auto& key_of_recorded, const auto& key_of_label) {
     std::map<std::string, int> numbers;  // -1: of several images
@@ -237,34 +265,71 @@ std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
       const auto [at, is_new] = numbers.emplace(key_of_recorded(image), image.number);
       if (!is_new) at->second = -1;
     }
+    std::map<int, std::size_t> joined;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const auto found = numbers.find(key_of_label(pictures[i]));
       if (found == numbers.end() || found->first.empty() || found->second < 0) continue;
-      picture_of_.emplace(found->second, i);
+      const auto [other, is_new] = joined.emplace(found->second, i);
+      if (is_new) continue;
+      if (!picture_of_.empty()) return;  // with more folders they differ
+      throw std::invalid_argument(
+          fmt::format("{} and {} may both be the picture {}: rename its folder to that of one",
+                      pictures[other->second].name, pictures[i].name, found->first));
     }
-    return !picture_of_.empty();
+    if (joined.size() > picture_of_.size()) picture_of_ = std::move(joined);
   };
-  const auto name = [](const auto& image) { return image.name; };
-  const auto stem = [](const auto& image) {
-    return std::filesystem::path(image.name).stem().string();
-  };
-  std::vector<std::string> lines = remarks;
-  std::vector<int> stated;
+  std::size_t parts = 1;
   for (const Picture& picture : pictures) {
-    if (picture.number) stated.push_back(*picture.number);
+    parts = std::max(parts, files::split(picture.name, '/').size());
   }
-  if (!join_by(name, name)) {
-    if (join_by(stem, stem)) {
+  std::vector<std::string> lines = remarks;
+  for (const bool whole : {true, false}) {
+    for (std::size_t count = parts; count > 0; --count) {
+      const auto name = [&](const auto& image) {
+        const std::filesystem::path end = end_of(image.name, count);
+        return whole ? end.string() : (end.parent_path() / end.stem()).string();
+      };
+      join_by(name, name);
+    }
+    if (picture_of_.empty()) continue;
+    if (!whole) {
       lines.emplace_back("labels: they name pictures with other endings than the recording");
-    } else if (!stated.empty()) {
-      const auto [least, most] = std::minmax_element(stated.begin(), stated.end());
-      const int last = recorded.empty() ? -1 : recorded.back().number;
-      const int from = first.value_or(*least == 1 && *most == last + 1 ? 1 : 0);
-      if (!first) lines.push_back(fmt::format("labels: frame_id is taken to count from {}", from));
-      join_by([](const Recorded& image) { return std::to_string(image.number); },
-              [&](const Picture& picture) {
-                return picture.number ? std::to_string(*picture.number - from) : "";
-              });
+    }
+    break;
+  }
+  std::vector<std::size_t> stated;
+  for (const Picture& picture : pictures) {
+    if (picture.number) stated.push_back(static_cast<std::size_t>(*picture.number));
+  }
+  if (picture_of_.empty() && !stated.empty() && !recorded.empty()) {
+    const bool by_name = recorded.front().named.has_value();
+    if (images == 0) images = static_cast<std::size_t>(recorded.back().number) + 1;
+    const auto [least, most] = std::ranges::minmax(stated);
+    const bool is_from_one = least > 0 && (named_first == 1UL || (least == 1 && most == images));
+    const std::size_t from = static_cast<std::size_t>(first.value_or(is_from_one ? 1 : 0));
+    if (!first) lines.push_back(fmt::format("labels: frame_id is taken to count from {}", from));
+    const bool are_same = by_name && !named_first;
+    join_by(
+        [&](const Recorded& image) {
+          return std::to_string(image.named.value_or(static_cast<std::size_t>(image.number)));
+        },
+        [&](const Picture& picture) {
+          if (!picture.number) return std::string();
+          const auto number = static_cast<std::size_t>(*picture.number);
+          return std::to_string(are_same ? number : number - from + named_first.value_or(0));
+        });
+    if (!picture_of_.empty()) {
+      const Picture& joined = pictures[picture_of_.begin()->second];
+      const auto image = std::ranges::find(recorded, picture_of_.begin()->first, &Recorded::number);
+      lines.push_back(fmt::format(
+          "labels: frame {} is {}, by the {} of the pictures", *joined.number,
+          image->name.empty() ? fmt::format("picture {}", image->number) : end_of(image->name, 1),
+          by_name ? "numbers in the names" : "order"));
+      if (!by_name && most >= images + from) {
+        throw std::invalid_argument(fmt::format(
+            "they go to frame {}, and the recording has {} pictures, whose names do not count them",
+            most, images));
+      }
     }
   }
   std::size_t boxes = 0, all = 0;
@@ -280,9 +345,10 @@ std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
     throw std::invalid_argument(
         pictures.empty() || recorded.empty()
             ? count
-            : fmt::format("{}: the first labels are of {}, and the recording begins with {}", count,
-                          called(pictures[0].name, pictures[0].number),
-                          called(recorded[0].name, recorded[0].number + first.value_or(0))));
+            : fmt::format(
+                  "{}: the first labels are of {}, and the recording begins with {}", count,
+                  called(pictures[0].name, pictures[0].number),
+                  called(end_of(recorded[0].name, 1), recorded[0].number + first.value_or(0))));
   }
   lines.push_back("labels: " + count);
   return lines;

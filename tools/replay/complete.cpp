@@ -57,27 +57,38 @@ void choose(const scenario::RecordingSource& asked, int most, std::vector<Record
   }
 }
 
-/// Line k belongs to picture k; pictures without a line are left out.
-std::vector<PosesMotion::CameraPose> poses_by_line(const PosesFile& file, Recorded& recorded) {
+/// Pictures without a line are left out.
+std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const PosesFile& file,
+                                                   Recorded& recorded) {
   std::vector<PosesMotion::CameraPose> poses;
-  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
-    if (frame.number >= file.lines.size()) {
-      recorded.tally.add("pictures have no pose and are left out", frame.name());
-      return true;
-    }
-    const auto& line = file.lines[frame.number];
-    if (line) poses.push_back({line->t_ns.value_or(frame.t_ns), line->T_WC});
-    if (line) frame.t_ns = poses.back().t_ns;
-    return !line;
-  });
+  std::vector<RecordedFrame> posed;
+  const auto rows = rows_of_frames(path, file.lines.size(), recorded);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RecordedFrame& frame = recorded.frames[i];
+    if (!rows[i]) recorded.tally.add("pictures have no pose and are left out", frame.name());
+    const auto line = rows[i] ? file.lines[*rows[i]] : std::nullopt;
+    if (!line) continue;
+    frame.t_ns = line->t_ns.value_or(frame.t_ns);
+    poses.push_back({frame.t_ns, line->T_WC});
+    posed.push_back(frame);
+  }
+  recorded.frames = std::move(posed);
   return poses;
 }
 
 /// Each line states its picture; between them the motion is linear.
-std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file,
+std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const PosesFile& file,
                                                      const Recorded& recorded) {
+  if (!recorded.numbers.least && recorded.video.empty()) {
+    throw input::Error(
+        {path.string(), 0},
+        "its rows state the numbers of their pictures, and the names of the pictures "
+        "have none; give a row of 12 numbers for each picture");
+  }
   std::map<std::size_t, std::int64_t> times_ns;
-  for (const RecordedFrame& frame : recorded.frames) times_ns[frame.number] = frame.t_ns;
+  for (const RecordedFrame& frame : recorded.frames) {
+    times_ns[frame.named.value_or(frame.number)] = frame.t_ns;
+  }
   std::vector<PosesMotion::CameraPose> poses;
   for (const auto& line : file.lines) {
     const auto found = line ? times_ns.find(*line->number) : times_ns.end();
@@ -277,9 +288,12 @@ void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Rec
                     file.lines.size(), recorded.frames.size()));
     return;
   }
-  auto poses = file.numbered ? poses_by_number(file, recorded)
-               : by_line     ? poses_by_line(file, recorded)
+  auto poses = file.numbered ? poses_by_number(*asked.poses, file, recorded)
+               : by_line     ? poses_by_line(*asked.poses, file, recorded)
                              : poses_by_time(file, recorded.has_own_clock);
+  if (!by_line && !file.numbered) {
+    require_start(recorded, poses.back().t_ns - poses.front().t_ns, *asked.poses);
+  }
   if (!times_known) {
     sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
   }
@@ -324,6 +338,7 @@ void move_by_readings(const scenario::RecordingSource& asked, const fs::path& fi
   // Pictures without a clock begin at the first reading.
   const std::int64_t first_ns = readings.imu.front().t_ns;
   const std::int64_t zero_ns = recorded.has_own_clock ? first_ns : 0;
+  require_start(recorded, readings.imu.back().t_ns - first_ns, file);
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += zero_ns;
   const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
   keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
@@ -362,8 +377,21 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) 
 }
 
 void time_by(double fps, Recorded& recorded) {
+  const PictureNumbers& all = recorded.numbers;
+  const std::size_t numbers = all.step > 0 ? (*all.greatest - *all.least) / all.step + 1 : 0;
+  if (all.least && numbers != all.pictures) {
+    recorded.tally.tell(fmt::format("{} pictures have the numbers {} to {} in their names: {}",
+                                    all.pictures, *all.least, *all.greatest,
+                                    numbers > 0
+                                        ? "for one that is missing the time of a picture passes"
+                                        : "fps counts the pictures, not the numbers"));
+  } else if (all.step > 1) {
+    recorded.tally.tell(fmt::format(
+        "the numbers of pictures go in steps of {}: fps counts the pictures", all.step));
+  }
   for (RecordedFrame& frame : recorded.frames) {
-    const double t_ns = static_cast<double>(frame.number) * 1e9 / fps;
+    const std::size_t place = all.step > 0 ? (*frame.named - *all.least) / all.step : frame.number;
+    const double t_ns = static_cast<double>(place) * 1e9 / fps;
     if (!(t_ns <= static_cast<double>(kFarthest_ns))) {
       throw std::runtime_error(fmt::format(
           "at {} pictures a second the recording takes more than 146 years; give a higher fps",

@@ -69,20 +69,24 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
     rows = rows_by_name(table, i, name_of_stem);
     if (!rows.empty()) names = i;
   }
-  if (!names && table.rows.size() != recorded.frames.size()) {
+  std::vector<std::optional<std::size_t>> row_of_frame;
+  if (!names) row_of_frame = rows_of_frames(file, table.rows.size(), recorded);
+  for (std::size_t i = 0; i < row_of_frame.size(); ++i) {
+    if (row_of_frame[i]) continue;
     throw input::Error({file.string(), 0},
-                       "has {} times for {} pictures, and does not name them; give one for each "
+                       "has {} times for {} pictures, and none for {}; give one for each "
                        "picture, or a column with the names of the pictures",
-                       table.rows.size(), recorded.frames.size());
+                       table.rows.size(), recorded.frames.size(), recorded.frames[i].name());
   }
   const std::size_t column = time_column(table, names);
   const std::int64_t unit_ns = time_unit_of(
       table, column, time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}, recorded.tally);
   std::vector<RecordedFrame> timed;
-  for (const RecordedFrame& frame : recorded.frames) {
+  for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
+    RecordedFrame& frame = recorded.frames[i];
     const std::string name = frame.picture.filename().string();
     const auto found = rows.find(name);
-    const TextTable::Row* row = !names                ? &table.rows[timed.size()]
+    const TextTable::Row* row = !names                ? &table.rows[*row_of_frame[i]]
                                 : found == rows.end() ? nullptr
                                                       : found->second;
     const auto t_ns = row ? time_in(TextTable::field(*row, column), unit_ns) : std::nullopt;
@@ -91,7 +95,8 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
                          "holds no time, and the rows do not name their pictures; give one");
     }
     if (t_ns) {
-      timed.push_back({*t_ns, frame.picture, frame.number});
+      frame.t_ns = *t_ns;
+      timed.push_back(frame);
     } else {
       recorded.tally.add("pictures have no time in the table and are left out", frame.name());
     }

@@ -15,20 +15,23 @@ namespace {
 constexpr const char* kOdometryCameras[] = {"image_0", "image_2", "image_1", "image_3"};
 constexpr std::string_view kPrefix = "image_";
 
-/// Line k belongs to picture k.
 void read_times(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file);
-  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
-    if (frame.number >= table.rows.size()) {
+  const auto rows = rows_of_frames(file, table.rows.size(), recorded);
+  std::vector<RecordedFrame> timed;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RecordedFrame& frame = recorded.frames[i];
+    if (!rows[i]) {
       recorded.tally.add("pictures have no time and are left out", frame.name());
-      return true;
+      continue;
     }
-    const TextTable::Row& row = table.rows[frame.number];
+    const TextTable::Row& row = table.rows[*rows[i]];
     const auto t_ns = time_in(row.fields.front(), kSecond_ns);
     if (!t_ns) recorded.tally.add("rows cannot be read and are left out", table.at(row));
     frame.t_ns = t_ns.value_or(0);
-    return !t_ns;
-  });
+    if (t_ns) timed.push_back(frame);
+  }
+  recorded.frames = std::move(timed);
   put_in_order(recorded.frames, file, recorded.tally);
 }
 
@@ -43,14 +46,15 @@ fs::path poses_of(const fs::path& folder) {
   return "";
 }
 
-/// Line k is the pose of camera 0 at picture k; y of its world frame points down.
+/// The poses are of camera 0; y of their world frame points down.
 void read_motion(const scenario::RecordingSource& asked, const fs::path& file,
                  const sim::Pose& T_C0C, Recorded& recorded) {
   const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
   std::vector<PosesMotion::CameraPose> at_frames;
-  for (const RecordedFrame& frame : recorded.frames) {
-    if (frame.number >= poses.lines.size() || !poses.lines[frame.number]) continue;
-    at_frames.push_back({frame.t_ns, poses.lines[frame.number]->T_WC * T_C0C});
+  const auto rows = rows_of_frames(file, poses.lines.size(), recorded);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i] || !poses.lines[*rows[i]]) continue;
+    at_frames.push_back({recorded.frames[i].t_ns, poses.lines[*rows[i]]->T_WC * T_C0C});
   }
   move_along(std::move(at_frames), Vector3d(0, -1, 0), asked, file,
              "pictures have no pose and are left out", recorded);
@@ -72,6 +76,7 @@ Recorded read_kitti_odometry(const scenario::RecordingSource& asked, bool) {
   }
   Recorded recorded;
   take_pictures(asked.path / camera, "", recorded);
+  recorded.numbers.first = 0;
   recorded.timed = fs::exists(asked.path / "times.txt");
   if (recorded.timed) read_times(asked.path / "times.txt", recorded);
   const std::string projection = fmt::format("P{}", camera.substr(kPrefix.size()));

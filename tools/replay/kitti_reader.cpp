@@ -112,6 +112,7 @@ void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded
     if (times[i]) recorded.frames.push_back({*times[i], picture_of(data, i), i});
   }
   put_in_order(recorded.frames, clock, recorded.tally);
+  number_frames(recorded, false);
 }
 
 }  // namespace
@@ -198,6 +199,7 @@ Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
   constexpr double kRate_hz = 10;  // all of KITTI is triggered at this rate
   Recorded recorded;
   take_pictures(sequence->pictures, "", recorded);
+  recorded.numbers.first = 0;
   recorded.timed = false;
   recorded.fps = kRate_hz;
   if (!asked.fps && !asked.times) {
@@ -213,19 +215,22 @@ Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
     return recorded;
   }
   time_by(asked.fps.value_or(kRate_hz), recorded);
-  std::vector<NavigationState> states;
+  std::vector<std::optional<NavigationState>> lines;
   input::InputFile file(oxts, kSmallText);
   for (std::string line; file.next_line(line);) {
     std::istringstream words(line);
-    const std::size_t place = static_cast<std::size_t>(file.here().line - 1);
-    auto state = state_in(words);
-    if (!state || place >= recorded.frames.size()) {
-      recorded.tally.add("states of the navigation unit have no picture or cannot be read",
-                         fmt::format("{}:{}", oxts.string(), place + 1));
-      continue;
+    lines.push_back(state_in(words));
+    if (!lines.back()) {
+      recorded.tally.add("states of the navigation unit are missing or cannot be read",
+                         fmt::format("{}:{}", oxts.string(), lines.size()));
     }
-    state->t_ns = recorded.frames[place].t_ns;
-    states.push_back(*state);
+  }
+  std::vector<NavigationState> states;
+  const auto rows = rows_of_frames(oxts, lines.size(), recorded);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i] || !lines[*rows[i]]) continue;
+    states.push_back(*lines[*rows[i]]);
+    states.back().t_ns = recorded.frames[i].t_ns;
   }
   const sim::Pose T_BC = T_BC_of(calibration, projection, "R_rect", calibration.pose("Tr_velo_cam"),
                                  calibration.pose("Tr_imu_velo"));

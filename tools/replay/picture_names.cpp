@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "scenarios/input/error.h"
+#include "tools/files/csv.h"
 #include "tools/replay/times.h"
 
 namespace lcs::replay {
@@ -241,6 +242,28 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
                     folder.string()));
   }
   return files;
+}
+
+std::vector<std::size_t> numbers_in(const std::vector<fs::path>& files) {
+  constexpr std::size_t kMost = 100'000'000;
+  std::vector<Name> names;
+  std::ranges::transform(files, std::back_inserter(names), name_of);
+  const bool have_one =
+      std::ranges::all_of(names, [](const Name& n) { return n.numbers.size() == 1; });
+  const bool are_alike =
+      std::ranges::all_of(names, [&](const Name& n) { return n.words == names.front().words; });
+  if (names.empty() || (!have_one && !are_alike)) return {};
+  const std::vector<std::size_t> places = have_one ? std::vector{0UL} : varying(names);
+  if (places.size() != 1) return {};
+  std::vector<std::size_t> numbers;
+  for (const Name& name : names) {
+    const Number& number = name.numbers[places.front()];
+    const auto whole = files::number_in<std::size_t>(number.whole);
+    if (!number.fraction.empty() || !whole || *whole > kMost) return {};
+    numbers.push_back(*whole);
+  }
+  const bool are_unique = std::set(numbers.begin(), numbers.end()).size() == numbers.size();
+  return are_unique ? numbers : std::vector<std::size_t>{};
 }
 
 OrderedPictures in_order(std::vector<fs::path> files, const std::string& time_unit) {

@@ -13,6 +13,11 @@ namespace lcs::replay {
 /// \throws std::runtime_error for a folder that cannot be read or has no picture.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
 
+/// The number in each name that counts the pictures, where only one varies: 20 in frame_000020.png.
+/// Empty if no number does, if two names have the same one, or if one exceeds a hundred million, as
+/// times do.
+std::vector<std::size_t> numbers_in(const std::vector<std::filesystem::path>& files);
+
 struct OrderedPictures {
   std::vector<std::filesystem::path> files;
   std::vector<std::int64_t> t_ns;  ///< increasing; empty if the names are no times

@@ -52,6 +52,7 @@ void take_unordered(const fs::path& folder, Recorded& recorded) {
   } catch (const input::Error&) {
     const std::vector<fs::path> files = pictures_in(folder);
     for (std::size_t i = 0; i < files.size(); ++i) recorded.frames.push_back({0, files[i], i});
+    number_frames(recorded, false);
   }
   recorded.timed = false;
 }
@@ -134,6 +135,7 @@ Recorded read_mot(const scenario::RecordingSource& asked, bool) {
   };
   Recorded recorded;
   take_pictures(asked.path / text("imDir", "img1"), "", recorded);
+  recorded.numbers.first = 1;
   recorded.timed = false;
   recorded.fps = rate_in(text("frameRate", ""));
   const auto listed = files::number_in<std::size_t>(text("seqLength", ""));
@@ -168,6 +170,7 @@ Recorded read_video(const scenario::RecordingSource& asked, bool) {
   const sim::VideoTimes times = sim::media().video_times(fs::absolute(asked.path).string());
   if (times.t_ns.empty()) refuse("has no picture that can be read");
   for (std::size_t i = 0; i < times.t_ns.size(); ++i) recorded.frames.push_back({0, {}, i});
+  recorded.numbers.pictures = recorded.frames.size();
   if (times.counted > std::ssize(times.t_ns)) {
     recorded.tally.tell(fmt::format("the video ends after {} of the {} pictures of its header",
                                     times.t_ns.size(), times.counted));

@@ -59,12 +59,17 @@ void Playback::read_labels() {
   const scenario::RecordingSource& asked = scenario_.recording.value();
   if (!asked.labels) return;
   labels_ = recording::read_labels(*asked.labels, asked.labels_video);
+  const PictureNumbers& all = recorded_.numbers;
+  const auto first = all.begin();
+  const std::size_t count = first ? *all.greatest - *first + 1 : all.pictures;
   std::vector<recording::Labels::Recorded> pictures;
   for (const RecordedFrame& frame : recorded_.frames) {
-    pictures.push_back({static_cast<int>(frame.number), frame.picture.filename().string()});
+    pictures.push_back({static_cast<int>(frame.number),
+                        fs::absolute(frame.picture).lexically_normal().string(), frame.named});
   }
   try {
-    for (std::string& line : labels_.join(pictures)) recorded_.tally.tell(std::move(line));
+    for (std::string& line : labels_.join(pictures, count, first))
+      recorded_.tally.tell(std::move(line));
   } catch (const std::invalid_argument& error) {
     throw input::Error({asked.labels->string(), 0}, "{}; give the labels of this recording",
                        error.what());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "scenarios/input/inputs_read.h"
@@ -97,6 +98,86 @@ void take_pictures(const fs::path& folder, const std::string& time_unit, Recorde
         {recorded.timed ? pictures.t_ns[i] : 0, std::move(pictures.files[i]), i});
   }
   if (recorded.timed) put_in_order(recorded.frames, folder, recorded.tally);
+  number_frames(recorded, recorded.timed);
+}
+
+void number_frames(Recorded& recorded, bool are_times) {
+  PictureNumbers& all = recorded.numbers;
+  all.pictures = recorded.frames.size();
+  std::vector<fs::path> files;
+  for (const RecordedFrame& frame : recorded.frames) files.push_back(frame.picture);
+  const std::vector<std::size_t> numbers = numbers_in(files);
+  if (are_times || numbers.empty()) return;
+  const auto [least, greatest] = std::ranges::minmax(numbers);
+  all.least = least;
+  all.greatest = greatest;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    recorded.frames[i].named = numbers[i];
+    all.step = std::gcd(all.step, numbers[i] - least);
+  }
+  if (greatest - least >= 2 * all.pictures * all.step) all.step = 0;
+  if (greatest == least) all.step = 1;
+}
+
+namespace {
+
+/// The number of the picture of a table's first row; absent if it may be 0 or 1.
+std::optional<std::size_t> first_number(const PictureNumbers& all, std::size_t rows) {
+  if (*all.least == 0 || all.first) return all.begin();
+  if (*all.greatest == rows) return 1;
+  return *all.least > 1 && *all.greatest + 1 == rows ? std::optional(0UL) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::optional<std::size_t>> rows_of_frames(const fs::path& table, std::size_t rows,
+                                                       Recorded& recorded) {
+  if (recorded.numbers.pictures == 0) number_frames(recorded, false);
+  const PictureNumbers& all = recorded.numbers;
+  const auto refuse = [&](const std::string& why) {
+    throw input::Error({table.string(), 0},
+                       "has {} rows for {} pictures, {}; give one row for each of these pictures",
+                       rows, all.pictures, why);
+  };
+  const bool by_number = rows != all.pictures;
+  if (by_number && !all.least) refuse("whose names have no number that counts them");
+  const std::optional<std::size_t> first = by_number ? first_number(all, rows) : std::nullopt;
+  if (by_number && !first) {
+    refuse(fmt::format("whose numbers, {} to {}, may count the rows from 0 or from 1", *all.least,
+                       *all.greatest));
+  }
+  std::vector<std::optional<std::size_t>> found;
+  std::string example;
+  std::size_t count = 0;
+  for (const RecordedFrame& frame : recorded.frames) {
+    const std::size_t row = first ? *frame.named - *first : frame.number;  // may wrap: no row
+    found.push_back(row < rows ? std::optional(row) : std::nullopt);
+    if (row < rows && ++count == 1) example = fmt::format("row {} to {}", row + 1, frame.name());
+  }
+  if (count == 0) refuse(fmt::format("and none has the number of a picture, from {}", *all.least));
+  recorded.tally.tell(fmt::format("{} of the {} rows of {} belong to pictures, by {}: {}", count,
+                                  rows, table.string(),
+                                  first ? "the numbers in their names" : "their order", example));
+  return found;
+}
+
+void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file) {
+  const PictureNumbers& all = recorded.numbers;
+  if (!recorded.has_own_clock || all.least.value_or(0) < 2 || all.step == 0) return;
+  const RecordedFrame& last = recorded.frames.back();
+  const double period_ns =
+      static_cast<double>(last.t_ns) / static_cast<double>(*last.named - *all.least);
+  const double with_half_before_ns =
+      static_cast<double>(*last.named) - 0.5 * static_cast<double>(*all.least);
+  if (last.t_ns == 0 || static_cast<double>(lasts_ns) < period_ns * with_half_before_ns) {
+    recorded.tally.tell(fmt::format("the first row of {} is taken to be at the first picture, {}",
+                                    file.string(), recorded.frames.front().name()));
+    return;
+  }
+  throw input::Error({file.string(), 0},
+                     "the numbers of the pictures begin with {}, and its first row may be at that "
+                     "picture or at number 0; give the times of the pictures (times), on its clock",
+                     *all.least);
 }
 
 void take_list(const TextTable& list, std::int64_t unit_ns,
@@ -112,6 +193,7 @@ void take_list(const TextTable& list, std::int64_t unit_ns,
     }
   }
   put_in_order(recorded.frames, list.file, recorded.tally);
+  number_frames(recorded, false);
 }
 
 void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tally& tally) {

@@ -74,8 +74,10 @@ class Tally {
   /// \param what a plural phrase, as "pictures that the list names are missing".
   /// \param example of it; only the first one is reported.
   void add(const std::string& what, const std::string& example, int count = 1);
-  /// A line that stands for itself.
-  void tell(std::string line) { remarks_.push_back(std::move(line)); }
+  /// A line that stands for itself; the same one is told once.
+  void tell(std::string line) {
+    if (std::ranges::count(remarks_, line) == 0) remarks_.push_back(std::move(line));
+  }
   /// Lines such as "3 pictures that ... are missing (the first: 12.png)".
   std::vector<std::string> lines() const;
 
@@ -113,16 +115,32 @@ Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source);
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;
-  fs::path picture;        ///< empty: in the video
-  std::size_t number = 0;  ///< index among all pictures of the recording, from 0
-  std::size_t events = 0;  ///< number of the recording's events up to its time
+  fs::path picture;                       ///< empty: in the video
+  std::size_t number = 0;                 ///< index among all pictures of the recording, from 0
+  std::size_t events = 0;                 ///< number of the recording's events up to its time
+  std::optional<std::size_t> named = {};  ///< number in its name, if `PictureNumbers` are known
 
   std::string name() const;  ///< for people: the file's, or "picture 7"
+};
+
+/// The numbers in the names of all pictures of a recording, before any was left out.
+struct PictureNumbers {
+  std::size_t pictures = 0;
+  std::optional<std::size_t> least, greatest;  ///< absent: the names do not count the pictures
+  std::size_t step = 0;  ///< between pictures, of which half are there; 0: they have no such step
+  std::optional<std::size_t> first;  ///< that the layout gives its first picture; absent: 0 or 1
+
+  /// The number of the first picture; absent if the numbers begin with another one, as of a part.
+  std::optional<std::size_t> begin() const {
+    if (!least || *least == 0) return least;
+    return first || *least > 1 ? first : least;
+  }
 };
 
 struct Recorded {
   /// At least one. If `timed` is false, they are in order and their times are unknown.
   std::vector<RecordedFrame> frames;
+  PictureNumbers numbers;
   bool timed = true;               ///< sorted by time, without duplicate times
   bool has_own_clock = false;      ///< times count from the first picture: sensors begin with it
   bool took_time_offset = false;   ///< `take_time_offset` was called
@@ -198,15 +216,32 @@ void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded
 /// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
 void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded);
 
-/// Gives the pictures times at a constant rate, beginning at 0.
+/// Finds the numbers of all pictures, which the frames are. \param are_times the names are times.
+void number_frames(Recorded& recorded, bool are_times);
+
+/// The row (from 0) of a table that belongs to each frame. Row k belongs to the k-th picture if
+/// there are as many rows as pictures. Else it belongs to the picture with number `first + k` in
+/// its name: `first` is the layout's; or 0 if a picture has it; or such that the table ends with
+/// the last picture. Tells how many rows found a picture. \throws input::Error if the counts differ
+/// and the names have no numbers, these may count from 0 or from 1, or no row finds a picture.
+std::vector<std::optional<std::size_t>> rows_of_frames(const fs::path& table, std::size_t rows,
+                                                       Recorded& recorded);
+
+/// Refuses pictures with a clock of their own whose first one may not be at the first reading:
+/// their numbers begin above 1, and the readings may begin with a picture that is not there. \param
+/// lasts_ns time from the first to the last reading. \param file of the readings.
+void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file);
+
+/// Gives the pictures times at a constant rate, beginning at 0; for a number without a picture the
+/// time passes.
 void time_by(double fps, Recorded& recorded);
 
 /// Gives each frame the time that a table has for it. If a column holds names of the pictures, a
-/// row belongs to the picture of its name, else row k to frame k. The times are in the column that
-/// the header calls so, else in the first one that holds neither names nor counts 0, 1, 2, ...
+/// row belongs to the picture of its name, else as in `rows_of_frames`. The times are in the column
+/// that the header calls so, else in the first one that holds neither names nor counts 0, 1, 2, ...
 /// Frames without a row are left out and counted.
 /// \param time_unit s, ms, us or ns; "": as the table states it, or as a camera's rate needs it.
-/// \throws input::Error if the table has no such column, or another length than there are frames.
+/// \throws input::Error if the table has no such column, or no row for a frame.
 void time_by_table(const fs::path& file, const std::string& time_unit, Recorded& recorded);
 
 /// Sets the frames to the pictures of a folder in the order of the numbers in their names, with the
