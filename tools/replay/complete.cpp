@@ -317,7 +317,8 @@ void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<
                 Recorded& recorded) {
   if (poses.empty()) {
     throw input::Error({file.string(), 0},
-                       "none of the poses belongs to a picture; give a line for each picture");
+                       recorded.tally.before(
+                           "none of the poses belongs to a picture; give a line for each picture"));
   }
   sort_by_time(poses, "poses", file.string(), recorded.tally);
   std::optional<Vector3d> up_W = level;

@@ -1,7 +1,11 @@
 #include "tools/replay/recorded.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "tools/files/csv.h"
 #include "tools/replay/times.h"
@@ -9,46 +13,91 @@
 namespace lcs::replay {
 namespace {
 
-using RowOfPicture = std::map<std::string, const TextTable::Row*>;
+/// The row of each frame; null for a frame without one.
+using RowOfFrame = std::vector<const TextTable::Row*>;
 
-/// The rows by the names in a column; empty unless most rows name one of the pictures, with or
-/// without its ending.
-RowOfPicture rows_by_name(const TextTable& table, std::size_t column,
-                          const std::map<std::string, std::string>& name_of_stem) {
-  RowOfPicture rows;
-  std::size_t found = 0;
-  for (const TextTable::Row& row : table.rows) {
-    const std::string name = fs::path(TextTable::field(row, column)).filename().string();
-    const auto stem = name_of_stem.find(name);
-    const bool is_stem = stem != name_of_stem.end();
-    const std::string whole = is_stem ? stem->second : name;
-    found += is_stem || name_of_stem.contains(fs::path(name).stem().string());
-    rows.emplace(whole, &row);
+/// The rows by the names or numbers of pictures in a column; empty unless most rows name one, with
+/// or without its ending, or each picture has a row with its number. \throws input::Error if two
+/// rows name one picture, in other folders.
+RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
+                        const std::vector<RecordedFrame>& frames) {
+  std::map<std::string, std::size_t> frame_of_stem;
+  std::map<std::size_t, std::size_t> frame_of_number;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].picture.empty()) frame_of_stem[frames[i].picture.stem().string()] = i;
+    if (frames[i].named) frame_of_number[*frames[i].named] = i;
   }
-  return 2 * found > table.rows.size() ? rows : RowOfPicture{};
+  RowOfFrame by_name(frames.size()), by_number(frames.size());
+  std::size_t named = 0, numbered = 0;
+  for (const TextTable::Row& row : table.rows) {
+    const std::string_view field = TextTable::field(row, column);
+    const fs::path name = field;
+    auto found = frame_of_stem.find(name.filename().string());
+    if (found == frame_of_stem.end()) found = frame_of_stem.find(name.stem().string());
+    if (found != frame_of_stem.end()) {
+      const auto is_here = [&](const TextTable::Row& of) {
+        const std::string whole = fmt::format("/{}", frames[found->second].picture.string());
+        return whole.ends_with(fmt::format("/{}", TextTable::field(of, column)));
+      };
+      const TextTable::Row*& other = by_name[found->second];
+      ++named;
+      if (!other || (is_here(row) && !is_here(*other))) {
+        other = &row;
+      } else if (!is_here(*other) && TextTable::field(*other, column) != field) {
+        throw input::Error(
+            {table.file.string(), row.line},
+            "{} and {} may both be the picture {}; give the rows of its folder alone",
+            TextTable::field(*other, column), field, frames[found->second].name());
+      }
+    }
+    const auto number = files::number_in<std::size_t>(field);
+    const auto at = number ? frame_of_number.find(*number) : frame_of_number.end();
+    if (at != frame_of_number.end()) numbered += !std::exchange(by_number[at->second], &row);
+  }
+  if (2 * named > table.rows.size()) return by_name;
+  return numbered == frames.size() ? by_number : RowOfFrame{};
 }
 
+/// Whether a column holds the numbers 0 or 1 to N, in any order.
 bool is_count(const TextTable& table, std::size_t column) {
-  std::optional<long> before;
+  std::set<long> numbers;
   for (const TextTable::Row& row : table.rows) {
     const auto number = files::number_in<long>(TextTable::field(row, column));
-    if (!number || (before && *number != *before + 1)) return false;
-    before = number;
+    if (!number || !numbers.insert(*number).second) return false;
   }
-  return table.rows.size() > 1;
+  return numbers.size() > 1 && *numbers.rbegin() - *numbers.begin() == std::ssize(numbers) - 1;
 }
 
-std::size_t time_column(const TextTable& table, std::optional<std::size_t> names) {
+/// Whether a column has numbers that increase from picture to picture, except for a tenth of them.
+bool increases(const RowOfFrame& rows, std::size_t column) {
+  std::size_t falls = 0;
+  std::optional<double> before;
+  for (const TextTable::Row* row : rows) {
+    const auto number =
+        row ? files::number_in<double>(TextTable::field(*row, column)) : std::nullopt;
+    falls += before && number && *number <= *before;
+    if (number) before = number;
+  }
+  return before && 10 * falls <= rows.size();
+}
+
+/// \param names the column of names or numbers, if there is one.
+std::size_t time_column(const TextTable& table, std::optional<std::size_t> names,
+                        const RowOfFrame& rows) {
   const std::size_t columns = table.rows.front().fields.size();
   if (const auto named = table.time_column()) return *named;
-  for (std::size_t i = 0; i < columns; ++i) {
+  const bool has_header = !table.header.empty() && !table.is_comment;
+  for (std::size_t i = 0; i < columns && !has_header; ++i) {
     const bool is_number =
         files::number_in<double>(TextTable::field(table.rows.front(), i)).has_value();
-    if (i != names && is_number && (columns == 1 || !is_count(table, i))) return i;
+    if (columns == 1 && is_number && (!is_count(table, i) || increases(rows, i))) return i;
+    if (i != names && is_number && !is_count(table, i) && increases(rows, i)) return i;
   }
-  if (names) return *names;  // names that are times
+  if (names && !has_header && increases(rows, *names)) return *names;  // names that are times
   throw input::Error({table.file.string(), table.rows.front().line},
-                     "no column holds times; give a time for each picture");
+                     "no column holds times that increase: {}; give a time for each picture, in a "
+                     "column called time [s], [ms], [us] or [ns]",
+                     table.columns());
 }
 
 }  // namespace
@@ -58,37 +107,30 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
   if (table.rows.empty()) {
     throw input::Error({file.string(), 0}, "holds no time; give one for each picture");
   }
-  std::map<std::string, std::string> name_of_stem;
-  for (const RecordedFrame& frame : recorded.frames) {
-    if (frame.picture.empty()) break;
-    name_of_stem[frame.picture.stem().string()] = frame.picture.filename().string();
-  }
-  RowOfPicture rows;
+  RowOfFrame rows;
   std::optional<std::size_t> names;
   for (std::size_t i = 0; i < table.rows.front().fields.size() && rows.empty(); ++i) {
-    rows = rows_by_name(table, i, name_of_stem);
+    rows = rows_by_name(table, i, recorded.frames);
     if (!rows.empty()) names = i;
   }
-  std::vector<std::optional<std::size_t>> row_of_frame;
-  if (!names) row_of_frame = rows_of_frames(file, table.rows.size(), recorded);
-  for (std::size_t i = 0; i < row_of_frame.size(); ++i) {
-    if (row_of_frame[i]) continue;
-    throw input::Error({file.string(), 0},
-                       "has {} times for {} pictures, and none for {}; give one for each "
-                       "picture, or a column with the names of the pictures",
-                       table.rows.size(), recorded.frames.size(), recorded.frames[i].name());
+  for (const auto& row : names ? std::vector<std::optional<std::size_t>>{}
+                               : rows_of_frames(file, table.rows.size(), recorded)) {
+    if (!row) {
+      throw input::Error({file.string(), 0},
+                         "has {} times for {} pictures, and none for {}; give one for each "
+                         "picture, or a column with the names of the pictures",
+                         table.rows.size(), recorded.frames.size(),
+                         recorded.frames[rows.size()].name());
+    }
+    rows.push_back(&table.rows[*row]);
   }
-  const std::size_t column = time_column(table, names);
+  const std::size_t column = time_column(table, names, rows);
   const std::int64_t unit_ns = time_unit_of(
       table, column, time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}, recorded.tally);
   std::vector<RecordedFrame> timed;
   for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
     RecordedFrame& frame = recorded.frames[i];
-    const std::string name = frame.picture.filename().string();
-    const auto found = rows.find(name);
-    const TextTable::Row* row = !names                ? &table.rows[*row_of_frame[i]]
-                                : found == rows.end() ? nullptr
-                                                      : found->second;
+    const TextTable::Row* row = rows[i];
     const auto t_ns = row ? time_in(TextTable::field(*row, column), unit_ns) : std::nullopt;
     if (row && !t_ns && !names) {
       throw input::Error({file.string(), row->line},

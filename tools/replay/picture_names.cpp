@@ -185,6 +185,11 @@ void require_fractions(const std::vector<Name>& names, std::size_t place) {
                  both(names[i - 1], names[i])));
     }
   }
+  std::vector<std::string> texts;
+  for (const Name& name : names) texts.push_back(name.numbers[place].text());
+  if (!lack_zeros({texts.begin(), texts.end()})) return;
+  refuse(names.front(),
+         "the fractions of seconds in the names lack leading zeros: 12.5 stands for 12.000000005");
 }
 
 /// The unit of numbers that are times, in ns; absent if they are none.

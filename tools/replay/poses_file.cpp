@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "tools/files/csv.h"
 #include "tools/replay/motion_source.h"
@@ -25,14 +26,14 @@ bool is_place(const Vector3d& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthest_m;
 }
 
-/// The places of t x y z qx qy qz qw in a row.
-using Places = std::array<std::size_t, 8>;
-constexpr Places kTumPlaces{0, 1, 2, 3, 4, 5, 6, 7};
+/// The places of x y z qx qy qz qw in a row.
+using Places = std::array<std::size_t, 7>;
+constexpr Places kTumPlaces{1, 2, 3, 4, 5, 6, 7};
 
 std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const Places& at,
-                                               std::int64_t unit_ns) {
-  const auto t_ns = time_in(TextTable::field(row, at[0]), unit_ns);
-  const auto numbers = TextTable::numbers(row, std::span(at).subspan(1));
+                                               const TimeColumn& time) {
+  const auto t_ns = time.of(row);
+  const auto numbers = TextTable::numbers(row, at);
   if (!numbers) return std::nullopt;
   const Vector3d p(numbers->data());
   const Eigen::Quaterniond q(numbers->data() + 3);
@@ -56,26 +57,48 @@ std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_
   return line;
 }
 
-/// The columns by the names in the header; absent if it does not name all.
+/// 0 to 2 for x, y, z of the position, 3 to 6 for x, y, z, w of the quaternion; absent for a column
+/// that is of neither.
+std::optional<std::size_t> place_of(const std::string& name) {
+  static const std::set<std::string> kPositions{"p", "pos", "position", "t", "translation"};
+  static const std::set<std::string> kRotations{"q",           "quat", "quaternion",
+                                                "orientation", "rot",  "rotation"};
+  static const std::set<std::string> kOthers{"v", "vel", "velocity",     "twist",      "b",  "bias",
+                                             "a", "acc", "acceleration", "covariance", "std"};
+  std::vector<std::string> words = words_in(name);
+  const std::size_t axis =
+      words.empty() ? std::string::npos : std::string_view("xyzw").find(words.back().back());
+  if (axis == std::string::npos) return std::nullopt;
+  words.back().pop_back();
+  const auto any = [&](const std::set<std::string>& of) {
+    return std::ranges::any_of(words, [&](const std::string& word) { return of.contains(word); });
+  };
+  const bool is_bare = words.size() == 1 && words.front().empty();
+  const bool is_rotation = any(kRotations), is_position = is_bare || any(kPositions);
+  if (any(kOthers) || is_rotation == is_position || (is_position && axis == 3)) return std::nullopt;
+  return axis + (is_rotation ? 3 : 0);
+}
+
+/// The columns by the names in the header; absent without a header.
+/// \throws input::Error for one that does not name all.
 std::optional<Places> named_places(const TextTable& table) {
-  static const std::array<std::vector<const char*>, 7> kNames{{
-      {"p_RS_R_x", "x", "tx", "px", "p_x", "pos_x", "field.pose.position.x"},
-      {"p_RS_R_y", "y", "ty", "py", "p_y", "pos_y", "field.pose.position.y"},
-      {"p_RS_R_z", "z", "tz", "pz", "p_z", "pos_z", "field.pose.position.z"},
-      {"q_RS_x", "qx", "q_x", "quat_x", "field.pose.orientation.x"},
-      {"q_RS_y", "qy", "q_y", "quat_y", "field.pose.orientation.y"},
-      {"q_RS_z", "qz", "q_z", "quat_z", "field.pose.orientation.z"},
-      {"q_RS_w", "qw", "q_w", "quat_w", "field.pose.orientation.w"},
-  }};
-  const auto time = table.time_column();
-  Places places{time.value_or(0)};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    std::optional<std::size_t> found;
-    for (const char* name : kNames[i]) found = found ? found : table.find(name);
-    if (!found || !time) return std::nullopt;
-    places[i + 1] = *found;
+  Places places{};
+  std::array<int, 7> found{};
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const auto place = place_of(table.header[i].name);
+    if (!place) continue;
+    places[*place] = i;
+    const std::string& unit = table.header[i].unit;
+    found[*place] += *place < 3 && !unit.empty() && unit != "m" ? 2 : 1;
   }
-  return places;
+  if (std::ranges::all_of(found, [](int count) { return count == 1; })) return places;
+  const bool is_text = table.is_comment && std::ranges::count(found, 0) > 5;
+  if (table.header.empty() || is_text) return std::nullopt;
+  throw input::Error({table.file.string(), 1},
+                     "the header does not name one position in m and one quaternion: {}; give the "
+                     "columns time, x, y, z, qx, qy, qz, qw of the camera, or p_RS_R_x, p_RS_R_y, "
+                     "p_RS_R_z, q_RS_w, q_RS_x, q_RS_y, q_RS_z of a body",
+                     table.columns());
 }
 
 /// Refuses positions that contradict the velocities of the same table, as EuRoC's truth has them.
@@ -129,6 +152,15 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   poses.of_body = table.find("p_RS_R_x").has_value();
   poses.timed = named || fields == kTumFields;
   poses.numbered = !poses.timed && fields == kMatrix + 1;
+  const bool is_vins = !named && table.separator == ',' && first.fields.back().empty();
+  if (is_vins) {
+    refuse(first.line,
+           fmt::format(
+               "lines that end with a comma are of VINS-Mono or VINS-Fusion, with poses of the "
+               "IMU; write time [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,{} as "
+               "its first line, and give the camera's place on the IMU by a calibration",
+               fields > kTumFields + 1 ? "vx,vy,vz," : ""));
+  }
   if (!poses.timed && fields != kThreeRows && fields != kMatrix && fields != kMatrix + 1) {
     refuse(first.line,
            fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
@@ -142,17 +174,18 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
            "it a header, as time, x, y, z, qx, qy, qz, qw");
   }
   constexpr double kSlowest_hz = 0.6, kFastest_hz = 590;
-  std::int64_t unit_ns = kSecond_ns;
+  TimeColumn time;
   if (poses.timed) {
-    unit_ns =
-        time_unit_of(table, named ? (*named)[0] : 0, time_unit, {kSlowest_hz, kFastest_hz, {}},
-                     poses.of_body ? kNanosecond_ns : kSecond_ns, tally);
+    const TableTimes times{
+        time_unit, {kSlowest_hz, kFastest_hz, {}}, poses.of_body ? kNanosecond_ns : kSecond_ns};
+    time =
+        named ? time_column_of(table, times, tally) : TimeColumn{0, times.unit_ns(table, 0, tally)};
   }
   for (const TextTable::Row& row : table.rows) {
     auto& line = poses.lines.emplace_back();
     if (poses.timed) {
       if (row.fields.size() == fields)
-        line = quaternion_line(row, named.value_or(kTumPlaces), unit_ns);
+        line = quaternion_line(row, named.value_or(kTumPlaces), time);
     } else {
       line = matrix_line(row, fields > kMatrix ? 1 : 0, fields > kMatrix ? kMatrix : fields);
     }
@@ -160,7 +193,9 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   }
   require_velocities(table, poses);
   if (std::ranges::none_of(poses.lines, [](const auto& line) { return line.has_value(); })) {
-    refuse(0, "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
+    refuse(0,
+           fmt::format("holds no pose: {}; give a line of 8 numbers (TUM) or 12 (KITTI) for each",
+                       table.columns()));
   }
   return poses;
 }

@@ -29,6 +29,33 @@ std::vector<std::string> Tally::lines() const {
   return lines;
 }
 
+void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string& source) {
+  constexpr std::size_t kMostFalls = 8;  // more are of rows that are late
+  std::vector<std::pair<std::int64_t, std::size_t>>
+      parts;  // the time, and how often the clock fell before
+  std::size_t first_fall = 0, falls = 0, changes = 0, distinct = 0;
+  for (std::size_t i = 0; i < t_ns.size(); ++i) {
+    if (i > 0 && t_ns[i] < t_ns[i - 1] && falls++ == 0) first_fall = i;
+    parts.emplace_back(t_ns[i], falls);
+  }
+  std::ranges::stable_sort(parts, {}, [](const auto& part) { return part.first; });
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    changes += parts[i].second != parts[i - 1].second;
+    distinct += parts[i].first != parts[i - 1].first;
+  }
+  if (falls > 0 && falls <= kMostFalls && changes > 2 * (falls + 1)) {
+    throw input::Error({source, 0},
+                       "its clock falls back from {} to {} ns, and its times after that are among "
+                       "those before; give the rows before or after that alone",
+                       t_ns[first_fall - 1], t_ns[first_fall]);
+  }
+  if (10 * (distinct + 1) >= t_ns.size()) return;
+  throw input::Error({source, 0},
+                     "only {} of its {} times differ, as if a spreadsheet had rounded them; write "
+                     "them with all their digits",
+                     distinct + 1, t_ns.size());
+}
+
 Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source) {
   Lens lens;
   lens.fu_px = numbers[0];
@@ -183,6 +210,7 @@ void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& fi
 void take_list(const TextTable& list, std::int64_t unit_ns,
                const std::function<fs::path(const TextTable::Row&)>& picture_of,
                Recorded& recorded) {
+  require_zeros(list, 0);
   for (std::size_t i = 0; i < list.rows.size(); ++i) {
     const auto t_ns = time_in(list.rows[i].fields.front(), unit_ns);
     const fs::path picture = picture_of(list.rows[i]);
@@ -200,7 +228,7 @@ void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tall
   sort_by_time(frames, "pictures", list.string(), tally);
   if (frames.empty()) {
     throw input::Error({list.string(), 0},
-                       "lists no picture with a time; give a row for each picture");
+                       tally.before("lists no picture with a time; give a row for each picture"));
   }
 }
 
@@ -213,7 +241,9 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
   });
   if (recorded.frames.empty()) {
     throw std::runtime_error(
-        "no picture was taken while the sensors recorded; give both the times of one clock");
+        recorded.tally.before(fmt::format("no picture was taken while the sensors recorded, from "
+                                          "{} to {} ns; give both the times of one clock",
+                                          first_ns, last_ns)));
   }
 }
 

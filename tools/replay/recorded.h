@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -78,6 +79,10 @@ class Tally {
   void tell(std::string line) {
     if (std::ranges::count(remarks_, line) == 0) remarks_.push_back(std::move(line));
   }
+  /// A message behind the faults that may explain it.
+  std::string before(const std::string& message) const {
+    return fmt::format("{}{}{}", fmt::join(lines(), "; "), lines().empty() ? "" : "; ", message);
+  }
   /// Lines such as "3 pictures that ... are missing (the first: 12.png)".
   std::vector<std::string> lines() const;
 
@@ -90,11 +95,18 @@ class Tally {
   std::vector<std::string> remarks_;
 };
 
+/// Refuses times in the order of a table's rows whose clock falls back, so that sorting would mix
+/// two parts, and times of which nine tenths have the time of another. \throws input::Error
+void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string& source);
+
 /// Sorts items by `t_ns`, and removes all but the first of those with the same time; counts both in
 /// `tally`. \param plural of the items, as "poses". \param source name of the table.
 template <class Timed>
 void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& source,
                   Tally& tally) {
+  std::vector<std::int64_t> t_ns;
+  for (const Timed& item : items) t_ns.push_back(item.t_ns);
+  require_one_clock(t_ns, source);
   const auto earlier = [](const Timed& a, const Timed& b) { return a.t_ns < b.t_ns; };
   const auto same = [](const Timed& a, const Timed& b) { return a.t_ns == b.t_ns; };
   if (!std::ranges::is_sorted(items, earlier)) {

@@ -31,20 +31,6 @@ struct NumberRow {
   std::vector<double> numbers;
 };
 
-/// A column of times, and perhaps one of nanoseconds beside seconds, as ROS has them.
-struct TimeColumn {
-  std::size_t column = 0;
-  std::int64_t unit_ns = 1;
-  std::optional<std::size_t> nanoseconds = {};
-
-  std::optional<std::int64_t> of(const TextTable::Row& row) const {
-    const auto t_ns = time_in(TextTable::field(row, column), unit_ns);
-    if (!nanoseconds) return t_ns;
-    const auto rest = time_in(TextTable::field(row, *nanoseconds), kNanosecond_ns);
-    return t_ns && rest ? std::optional(*t_ns + *rest) : std::nullopt;
-  }
-};
-
 /// \param last an optional further column.
 std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
                                std::span<const std::size_t> columns,
@@ -82,24 +68,6 @@ std::vector<NumberRow> read_numbers(const fs::path& file, std::span<const char* 
 
 Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
-}
-
-/// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
-std::vector<std::string> words_in(const std::string& name) {
-  std::vector<std::string> words;
-  char before = ' ';
-  for (const char c : name) {
-    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool begins = std::isupper(static_cast<unsigned char>(c)) != 0 &&
-                        std::islower(static_cast<unsigned char>(before)) != 0;
-    const bool was_letter = std::isalpha(static_cast<unsigned char>(before)) != 0;
-    if (is_letter && (begins || !was_letter)) words.emplace_back();
-    if (is_letter) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    before = c;
-  }
-  return words;
 }
 
 /// 0 to 2 for x, y, z of the angular rates, 3 to 5 for x, y, z of the accelerations; absent
@@ -142,33 +110,23 @@ struct ImuColumns {
   std::array<double, 6> factors{1, 1, 1, 1, 1, 1};
 };
 
-TimeColumn find_time(const TextTable& table, const TableTimes& times, Tally& tally) {
-  const auto ending_in = [&](std::initializer_list<const char*> words) {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < table.header.size() && !found; ++i) {
-      const std::vector<std::string> own = words_in(table.header[i].name);
-      const bool ends = !own.empty() && std::ranges::find(words, own.back()) != words.end();
-      if (ends) found = i;
-    }
-    return found;
-  };
-  const auto seconds = ending_in({"sec", "secs"}), rest = ending_in({"nsec", "nsecs", "nanosec"});
-  if (seconds && rest) return {*seconds, kSecond_ns, rest};
-  const std::size_t column = table.time_column().value_or(0);
-  return {column, times.unit_ns(table, column, tally)};
-}
-
 /// \throws input::Error for a header without the six columns.
 ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& tally) {
-  ImuColumns columns{find_time(table, times, tally)};
-  if (table.header.empty()) return columns;
   std::array<bool, 6> is_found{};
   const auto refuse = [&](const std::string& why) {
     throw input::Error({table.file.string(), 1},
-                       why +
-                           "; give the time, and w_RS_S_x, w_RS_S_y, w_RS_S_z [rad/s], a_RS_S_x, "
-                           "a_RS_S_y, a_RS_S_z [m/s^2]");
+                       "{}: {}; give the time, and w_RS_S_x, w_RS_S_y, w_RS_S_z [rad/s], a_RS_S_x, "
+                       "a_RS_S_y, a_RS_S_z [m/s^2]{}",
+                       why, table.columns(),
+                       table.header.empty() ? " in a header (KAIST's xsens_imu.csv: time "
+                                              "[ns],qx,qy,qz,qw,ex,ey,ez, these six, mx,my,mz)"
+                                            : "");
   };
+  const std::size_t fields = table.rows.empty() ? 0 : table.rows.front().fields.size();
+  if (table.header.empty() && fields > 7 && !table.rows.front().fields[7].empty())
+    refuse("its columns are not those of an IMU alone");
+  ImuColumns columns{time_column_of(table, times, tally)};
+  if (table.header.empty()) return columns;
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const auto place = place_of(table.header[i].name);
     if (!place) continue;
@@ -304,7 +262,8 @@ std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes&
     samples.push_back({row.t_ns, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
   }
   if (samples.empty()) {
-    throw input::Error({file.string(), 0}, "holds no reading of an IMU; give a row for each");
+    throw input::Error({file.string(), 0},
+                       tally.before("holds no reading of an IMU; give a row for each"));
   }
   require_possible(samples, file);
   count_gaps(samples, tally);

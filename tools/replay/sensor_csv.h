@@ -17,17 +17,6 @@
 
 namespace lcs::replay {
 
-/// The unit of a table's times, as far as it is known before the table is read.
-struct TableTimes {
-  std::string unit;  ///< s, ms, us or ns; "": as the table states it
-  ExpectedRate rate;
-  std::optional<std::int64_t> usual;  ///< unit in ns that its layout has
-
-  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const {
-    return time_unit_of(table, column, unit, rate, usual, tally);
-  }
-};
-
 /// Columns are as in EuRoC, or have other usual names (ROS, Kalibr, loggers of phones), with
 /// units in the header; without a header: time, angular rates in rad/s, accelerations in m/s^2.
 /// \throws input::Error if the file is unreadable, has no reading, or has readings that no IMU can

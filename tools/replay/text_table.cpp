@@ -1,6 +1,7 @@
 #include "tools/replay/text_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +10,7 @@
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {
@@ -66,12 +68,91 @@ std::vector<TextTable::Column> columns_in(std::string_view line, char separator)
   return columns;
 }
 
-bool begins_with_number(std::string_view line) {
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+/// Begins with a number; or with a word, and most fields are numbers.
+bool is_row(std::string_view line) {
   const char c = line.front();
-  return std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '+' || c == '.';
+  if (std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '+' || c == '.') return true;
+  const std::vector<std::string> fields = fields_in(line, separator_in(line));
+  const auto numbers =
+      static_cast<std::size_t>(std::ranges::count_if(fields, [](const std::string& field) {
+        return files::number_in<double>(field).has_value();
+      }));
+  return !is_comment(line) && numbers > 2 && 2 * numbers > fields.size();
+}
+
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// A table of a tool that needs more than other names of columns.
+struct Foreign {
+  std::string_view words;  ///< in a line before its rows
+  const char* name;
+  const char* remedy;
+};
+constexpr Foreign kForeign[] = {
+    {"x_world_device", "Project Aria's, with poses of the device",
+     "write graph_uid,time [us],utc,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_x,q_RS_y,q_RS_z,q_RS_w and the "
+     "other names as its first line, and give the camera's place on the device by a calibration"},
+    {"x_odometry_device", "Project Aria's, of an odometry",
+     "give the trajectory of the closed loop"},
+    {"vehiclename", "AirSim's, with poses of a vehicle that has x ahead, y right, z down",
+     "write name,time [ms],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,file with its "
+     "tabs as its first line, and give the camera's place on these axes by T_BS of a calibration"},
+    {"tx_m", "Argoverse 2's, with poses of the vehicle",
+     "write time [ns],q_RS_w,q_RS_x,q_RS_y,q_RS_z,p_RS_R_x,p_RS_R_y,p_RS_R_z as its first line, "
+     "and give the camera's place on the vehicle by a calibration or mount"},
+    {"image_id, qw", "COLMAP's, without times and with poses of the world in the camera",
+     "give the folder of the pictures with fps or times, and inverse poses with the header time, "
+     "x, y, z, qx, qy, qz, qw"},
+    {"tscale", "Gyroflow's, in units of its tscale, gscale and ascale",
+     "multiply by these, turn the axes as its orientation says, and write time "
+     "[s],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x [g],a_RS_S_y [g],a_RS_S_z [g] in place of the lines "
+     "before the first row"},
+};
+
+void refuse_foreign(const fs::path& file, const std::vector<std::string>& before) {
+  for (const std::string& line : before) {
+    for (const Foreign& one : kForeign) {
+      if (in_lower_case(line).find(one.words) == line.npos) continue;
+      throw input::Error({file.string(), 0}, "this table is {}; {}", one.name, one.remedy);
+    }
+  }
 }
 
 }  // namespace
+
+std::vector<std::string> words_in(std::string_view name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (const char c : name) {
+    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool begins = std::isupper(static_cast<unsigned char>(c)) != 0 &&
+                        std::islower(static_cast<unsigned char>(before)) != 0;
+    const bool was_letter = std::isalpha(static_cast<unsigned char>(before)) != 0;
+    if (is_letter && (begins || !was_letter)) words.emplace_back();
+    if (is_letter) {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    before = c;
+  }
+  return words;
+}
+
+std::string TextTable::columns() const {
+  if (header.empty())
+    return fmt::format("it has {} columns and no header", rows.front().fields.size());
+  std::vector<std::string> names;
+  for (const Column& column : header) names.push_back(column.name);
+  return fmt::format("its columns are {}", fmt::join(names, ", "));
+}
 
 std::string TextTable::at(const Row& row) const {
   return fmt::format("{}:{}", file.string(), row.line);
@@ -101,7 +182,8 @@ std::optional<std::vector<double>> TextTable::numbers(const Row& row, std::size_
 }
 
 std::optional<std::size_t> TextTable::find(std::string_view name) const {
-  const auto found = std::ranges::find(header, name, &Column::name);
+  const auto found = std::ranges::find(
+      header, in_lower_case(name), [](const Column& column) { return in_lower_case(column.name); });
   if (found == header.end()) return std::nullopt;
   return static_cast<std::size_t>(found - header.begin());
 }
@@ -109,12 +191,15 @@ std::optional<std::size_t> TextTable::find(std::string_view name) const {
 std::optional<std::size_t> TextTable::time_column() const {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < header.size(); ++i) {
-    std::string name = header[i].name;
-    std::ranges::transform(name, name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = in_lower_case(header[i].name);
+    std::vector<std::string> words = words_in(name);
     const bool is_stamp = name.ends_with("header.stamp");
+    // a unit alone, or behind t or ts
+    if (words.size() > 1 && time_unit_named(words.back())) words.pop_back();
+    const bool is_short =
+        words.size() == 1 && (words[0] == "t" || words[0] == "ts" || time_unit_named(words[0]));
     const bool is_time =
-        is_stamp || name.find("time") != name.npos || name == "t" || name.starts_with("stamp");
+        is_stamp || is_short || name.find("time") != name.npos || name.starts_with("stamp");
     if (is_stamp || (is_time && !found)) found = i;
     if (is_stamp) break;
   }
@@ -126,7 +211,8 @@ std::size_t TextTable::column(std::string_view name, std::size_t otherwise) cons
   if (const auto found = find(name)) return *found;
   throw input::Error(
       {file.string(), 1},
-      "the header names no column {}; give each column the name that the layout has for it", name);
+      "the header names no column {}: {}; give each column the name that the layout has for it",
+      name, columns());
 }
 
 TextTable read_table(const fs::path& file) {
@@ -134,12 +220,12 @@ TextTable read_table(const fs::path& file) {
   constexpr input::FileKind kSensorTable{input::kGibibyte,
                                          "give a table of rows, as the layout has it"};
   input::InputFile input(file, kSensorTable);
-  TextTable table{file, ' ', {}, {}};
+  TextTable table{file, ' ', {}, false, {}};
   std::vector<std::string> before;  // lines before the first row
   for (std::string text; input.next_line(text);) {
     const std::string_view line = files::trimmed(text);
     if (line.empty()) continue;
-    if (table.rows.empty() && !begins_with_number(line)) {
+    if (table.rows.empty() && !is_row(line)) {
       before.emplace_back(line);
       continue;
     }
@@ -148,12 +234,15 @@ TextTable read_table(const fs::path& file) {
     table.rows.push_back({input.here().line, fields_in(line, table.separator)});
   }
   if (before.empty()) return table;
+  refuse_foreign(file, before);
   if (table.rows.empty()) table.separator = separator_in(before.back());
   for (const std::string& line : before) {
     std::vector<TextTable::Column> columns = columns_in(line, table.separator);
-    const bool is_bare = !line.starts_with('#');
+    const bool is_bare = !is_comment(line);
     const bool fits = !table.rows.empty() && columns.size() == table.rows[0].fields.size();
-    if (fits || is_bare || table.rows.empty()) table.header = std::move(columns);
+    if (!fits && !is_bare && !table.rows.empty()) continue;
+    table.header = std::move(columns);
+    table.is_comment = !is_bare;
   }
   return table;
 }

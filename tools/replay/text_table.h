@@ -26,8 +26,11 @@ struct TextTable {
   fs::path file;
   char separator = ' ';        ///< comma, semicolon, tab; ' ': any number of blanks
   std::vector<Column> header;  ///< empty if there is no header
+  bool is_comment = false;     ///< the header is behind '#', '%' or '//': perhaps it is none
   std::vector<Row> rows;
 
+  /// For messages: "its columns are a, b, c", or how many there are without a header.
+  std::string columns() const;
   /// "file:line"
   std::string at(const Row& row) const;
   /// The field of a row; "" if the row is shorter.
@@ -39,6 +42,7 @@ struct TextTable {
   static std::optional<std::vector<double>> numbers(const Row& row, std::size_t first,
                                                     std::size_t count);
 
+  /// \param name without regard to case.
   std::optional<std::size_t> find(std::string_view name) const;
   /// The column that the header calls a time: the stamp of a ROS header, or the first one.
   std::optional<std::size_t> time_column() const;
@@ -47,10 +51,13 @@ struct TextTable {
   std::size_t column(std::string_view name, std::size_t otherwise) const;
 };
 
+/// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
+std::vector<std::string> words_in(std::string_view name);
+
 /// Reads fields between commas, semicolons (with decimal commas), tabs or blanks, whichever the
 /// first row of numbers has. Of the lines before that row the last one that has as many fields is
 /// the header; empty lines and further lines that begin with '#' are skipped.
-/// \throws input::Error if the file cannot be read.
+/// \throws input::Error if the file cannot be read, or is of a tool whose tables are not read.
 TextTable read_table(const fs::path& file);
 
 }  // namespace lcs::replay

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "scenarios/input/error.h"
@@ -44,6 +45,8 @@ std::optional<std::chrono::nanoseconds> time_of_day_in(std::string_view clock) {
          std::chrono::nanoseconds(std::llround(*second * kNanosecondsASecond));
 }
 
+constexpr std::int64_t kTick_ns = 100'000;  // of Xsens, whose columns alone state it
+
 struct TimeUnit {
   std::int64_t ns;
   std::vector<std::string_view> names;  ///< the shortest first
@@ -53,13 +56,15 @@ const std::vector<TimeUnit>& time_units() {
       {kSecond_ns, {"s", "sec", "secs", "second", "seconds"}},
       {kMillisecond_ns, {"ms", "msec", "millis", "milliseconds"}},
       {kMicrosecond_ns, {"us", "usec", "microseconds", "µs"}},
-      {kNanosecond_ns, {"ns", "nsec", "nsecs", "nanoseconds"}}};
+      {kNanosecond_ns, {"ns", "nsec", "nsecs", "nanosec", "nanoseconds"}},
+      {kTick_ns, {"100 us"}}};
   return kUnits;
 }
 
 /// The unit of a column of times: in brackets, or the last word of a name as "timestamp_ns".
 std::string unit_in(const TextTable::Column& column) {
   if (!column.unit.empty()) return column.unit;
+  if (words_in(column.name) == std::vector<std::string>{"sample", "time", "fine"}) return "100 us";
   const std::size_t last = column.name.find_last_of("_ ");
   const std::string word = last == column.name.npos ? "" : column.name.substr(last + 1);
   return time_unit_named(word) ? word : "";
@@ -82,7 +87,96 @@ bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
+/// Counts differences of sorted times that are not near the usual one.
+std::size_t irregular_in(std::vector<std::int64_t> t_ns) {
+  std::ranges::sort(t_ns);
+  std::adjacent_difference(t_ns.begin(), t_ns.end(), t_ns.begin());
+  if (!t_ns.empty()) t_ns.erase(t_ns.begin());
+  const std::int64_t usual_ns = usual(t_ns).value_or(0);
+  return static_cast<std::size_t>(std::ranges::count_if(t_ns, [&](std::int64_t step_ns) {
+    return 2 * step_ns < usual_ns || 2 * step_ns > 3 * usual_ns;
+  }));
+}
+
+/// Refuses counts of 100 ns since the year 1601 or 1.
+void require_no_ticks(const TextTable& table, std::size_t column) {
+  if (table.rows.empty()) return;
+  const TextTable::Row& row = table.rows.front();
+  const auto number = files::number_in<std::int64_t>(TextTable::field(row, column));
+  constexpr std::int64_t kSince1601 = 116'444'736'000'000'000, kSince1 = 621'355'968'000'000'000,
+                         kSpan = 20'000'000'000'000'000;
+  for (const std::int64_t zero : {kSince1601, kSince1}) {
+    if (!number || *number < zero || *number > zero + kSpan) continue;
+    throw input::Error({table.file.string(), row.line},
+                       "its times are ticks of 100 ns since the year {} (Windows, HoloLens); write "
+                       "(t - {}) * 100, ns since 1970",
+                       zero == kSince1 ? 1 : 1601, zero);
+  }
+}
+
 }  // namespace
+
+std::optional<std::int64_t> TimeColumn::of(const TextTable::Row& row) const {
+  const auto t_ns = time_in(TextTable::field(row, column), unit_ns);
+  if (!rest) return t_ns;
+  const auto more_ns = time_in(TextTable::field(row, *rest), rest_ns);
+  return t_ns && more_ns ? std::optional(*t_ns + *more_ns) : std::nullopt;
+}
+
+TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally& tally) {
+  std::optional<std::size_t> seconds;
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const std::vector<std::string> words = words_in(table.header[i].name);
+    const auto unit_ns = words.empty() ? std::nullopt : time_unit_named(words.back());
+    if (unit_ns == kSecond_ns) seconds = i;
+    if (!seconds || !unit_ns || *unit_ns >= kMillisecond_ns || table.rows.empty()) continue;
+    const TextTable::Row& last = table.rows.back();
+    const auto rest_ns = time_in(TextTable::field(last, i), *unit_ns);
+    const bool is_rest =
+        rest_ns && *rest_ns < kSecond_ns && is_digits(TextTable::field(last, *seconds));
+    if (is_rest) return {*seconds, kSecond_ns, i, *unit_ns};
+  }
+  const auto column = table.time_column();
+  if (!column && !table.header.empty() && !table.is_comment) {
+    throw input::Error(
+        {table.file.string(), 1},
+        "the header names no time: {}; call the column of times time [s], [ms], [us] or [ns]",
+        table.columns());
+  }
+  return {column.value_or(0), times.unit_ns(table, column.value_or(0), tally)};
+}
+
+bool lack_zeros(const std::vector<std::string_view>& times) {
+  std::size_t most = 0, least = std::string_view::npos;
+  for (const std::string_view time : times) {
+    const std::size_t point = time.find('.');
+    if (point == time.npos || time.find_first_of("eE-") != time.npos) return false;
+    const std::size_t digits = time.size() - point - 1;
+    most = std::max(most, digits);
+    least = std::min(least, digits);
+  }
+  if (least >= most) return false;
+  std::vector<std::int64_t> as_written_ns, padded_ns;
+  for (const std::string_view time : times) {
+    const std::size_t point = time.find('.') + 1;
+    if (time.size() - point < most && time.size() - point > 1 && time[point] == '0') return false;
+    std::string padded(time);
+    padded.insert(point, most - (time.size() - point), '0');
+    as_written_ns.push_back(time_in(time, kSecond_ns).value_or(0));
+    padded_ns.push_back(time_in(padded, kSecond_ns).value_or(0));
+  }
+  return irregular_in(std::move(padded_ns)) < irregular_in(std::move(as_written_ns));
+}
+
+void require_zeros(const TextTable& table, std::size_t column) {
+  std::vector<std::string_view> times;
+  for (const TextTable::Row& row : table.rows) times.push_back(TextTable::field(row, column));
+  if (!lack_zeros(times)) return;
+  throw input::Error(
+      {table.file.string(), table.rows.front().line},
+      "the fractions of its seconds lack leading zeros: 12.5 stands for 12.000000005; "
+      "write them with as many digits each");
+}
 
 std::optional<std::int64_t> time_unit_named(std::string_view name) {
   for (const TimeUnit& unit : time_units()) {
@@ -130,6 +224,7 @@ std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns) {
 std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
                           const ExpectedRate& expected, std::optional<std::int64_t> layouts,
                           Tally& tally) {
+  require_zeros(table, column);
   const std::optional<double> period = usual_period(table, column);
   const auto rate_hz = [&](std::int64_t unit_ns) {
     return static_cast<double>(kSecond_ns) / (*period * static_cast<double>(unit_ns));
@@ -150,8 +245,8 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
     }
     return unit_ns;
   };
-  const auto fitting =
-      std::ranges::find_if(time_units(), [&](const TimeUnit& unit) { return fits(unit.ns); });
+  const auto fitting = std::ranges::find_if(
+      time_units(), [&](const TimeUnit& unit) { return unit.ns != kTick_ns && fits(unit.ns); });
   const std::string file = table.file.string();
   const std::string rate =
       expected.stated_hz ? fmt::format("{} states {:g} Hz", expected.stated_by, *expected.stated_hz)
@@ -175,6 +270,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   if (by_user && !expected.stated_hz) return *by_user;
   if (by_user) contradict("in " + asked + " by time_unit", *by_user);
   if (by_header) contradict("in " + stated + " by its header", *by_header);
+  require_no_ticks(table, column);
   if (layouts && fits(*layouts)) return chosen(*layouts);
   if (fitting == time_units().end()) {
     throw input::Error({file, table.rows.front().line},

@@ -57,6 +57,36 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
                           const ExpectedRate& expected, std::optional<std::int64_t> layouts,
                           Tally& tally);
 
+/// The unit of a table's times, as far as it is known before the table is read.
+struct TableTimes {
+  std::string unit;  ///< s, ms, us or ns; "": as the table states it
+  ExpectedRate rate;
+  std::optional<std::int64_t> usual;  ///< unit in ns that its layout has
+
+  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const {
+    return time_unit_of(table, column, unit, rate, usual, tally);
+  }
+};
+
+/// A column of times, and perhaps one of their fractions beside seconds, as ROS has them.
+struct TimeColumn {
+  std::size_t column = 0;
+  std::int64_t unit_ns = 1;
+  std::optional<std::size_t> rest = {};
+  std::int64_t rest_ns = kNanosecond_ns;
+
+  std::optional<std::int64_t> of(const TextTable::Row& row) const;
+};
+/// The column that the header calls so, else the first one.
+/// \throws input::Error for a header without one, and as `time_unit_of`.
+TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally& tally);
+
+/// Whether fractions of seconds, as 12.5, lack leading zeros: 12.05 was meant. Then they have
+/// different counts of digits, and as whole numbers they give a more regular rate.
+bool lack_zeros(const std::vector<std::string_view>& times);
+/// \throws input::Error if the times in a column do.
+void require_zeros(const TextTable& table, std::size_t column);
+
 /// The upper median; absent for an empty list.
 template <class Number>
 std::optional<Number> usual(std::vector<Number> values) {
