@@ -61,18 +61,14 @@ void choose(const scenario::RecordingSource& asked, int most, std::vector<Record
 std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const PosesFile& file,
                                                    Recorded& recorded) {
   std::vector<PosesMotion::CameraPose> poses;
-  std::vector<RecordedFrame> posed;
-  const auto rows = rows_of_frames(path, file.lines.size(), recorded);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    RecordedFrame& frame = recorded.frames[i];
-    if (!rows[i]) recorded.tally.add("pictures have no pose and are left out", frame.name());
-    const auto line = rows[i] ? file.lines[*rows[i]] : std::nullopt;
-    if (!line) continue;
-    frame.t_ns = line->t_ns.value_or(frame.t_ns);
-    poses.push_back({frame.t_ns, line->T_WC});
-    posed.push_back(frame);
-  }
-  recorded.frames = std::move(posed);
+  const auto rows = take_rows(path, file.lines.size(), "pose", recorded);
+  std::size_t next = 0;
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
+    const auto& line = file.lines[rows[next++]];
+    if (line) frame.t_ns = line->t_ns.value_or(frame.t_ns);
+    if (line) poses.push_back({frame.t_ns, line->T_WC});
+    return !line;
+  });
   return poses;
 }
 
@@ -379,16 +375,13 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) 
 
 void time_by(double fps, Recorded& recorded) {
   const PictureNumbers& all = recorded.numbers;
-  const std::size_t numbers = all.step > 0 ? (*all.greatest - *all.least) / all.step + 1 : 0;
-  if (all.least && numbers != all.pictures) {
-    recorded.tally.tell(fmt::format("{} pictures have the numbers {} to {} in their names: {}",
-                                    all.pictures, *all.least, *all.greatest,
-                                    numbers > 0
-                                        ? "for one that is missing the time of a picture passes"
-                                        : "fps counts the pictures, not the numbers"));
-  } else if (all.step > 1) {
+  if (all.least && *all.greatest - *all.least + 1 != all.pictures) {
     recorded.tally.tell(fmt::format(
-        "the numbers of pictures go in steps of {}: fps counts the pictures", all.step));
+        "{} pictures have the numbers {} to {} in their names: {}", all.pictures, *all.least,
+        *all.greatest,
+        all.step > 0
+            ? fmt::format("{} is a picture's time, which passes for one that is missing", all.step)
+            : "fps counts the pictures alone"));
   }
   for (RecordedFrame& frame : recorded.frames) {
     const std::size_t place = all.step > 0 ? (*frame.named - *all.least) / all.step : frame.number;
@@ -401,6 +394,10 @@ void time_by(double fps, Recorded& recorded) {
     frame.t_ns = std::llround(t_ns);
   }
   recorded.has_own_clock = true;
+  if (all.step > 0 && *all.least > 1) {
+    recorded.numbers.before_ns =
+        std::llround(static_cast<double>(*all.least / all.step) * 1e9 / fps);
+  }
 }
 
 /// The properties of the pictures, with the user's in place of those that they show.

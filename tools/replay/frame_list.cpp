@@ -113,16 +113,17 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
     rows = rows_by_name(table, i, recorded.frames);
     if (!rows.empty()) names = i;
   }
-  for (const auto& row : names ? std::vector<std::optional<std::size_t>>{}
-                               : rows_of_frames(file, table.rows.size(), recorded)) {
-    if (!row) {
-      throw input::Error({file.string(), 0},
-                         "has {} times for {} pictures, and none for {}; give one for each "
-                         "picture, or a column with the names of the pictures",
-                         table.rows.size(), recorded.frames.size(),
-                         recorded.frames[rows.size()].name());
+  const std::size_t pictures = recorded.frames.size();
+  if (!names) {
+    for (const std::size_t row : take_rows(file, table.rows.size(), "time", recorded)) {
+      rows.push_back(&table.rows[row]);
     }
-    rows.push_back(&table.rows[*row]);
+  }
+  if (rows.size() < pictures) {
+    throw input::Error({file.string(), 0},
+                       "has {} times for {} pictures, and does not name them; give one for each "
+                       "picture, or a column with the names of the pictures",
+                       table.rows.size(), pictures);
   }
   const std::size_t column = time_column(table, names, rows);
   const std::int64_t unit_ns = time_unit_of(

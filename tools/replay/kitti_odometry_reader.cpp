@@ -17,21 +17,15 @@ constexpr std::string_view kPrefix = "image_";
 
 void read_times(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file);
-  const auto rows = rows_of_frames(file, table.rows.size(), recorded);
-  std::vector<RecordedFrame> timed;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    RecordedFrame& frame = recorded.frames[i];
-    if (!rows[i]) {
-      recorded.tally.add("pictures have no time and are left out", frame.name());
-      continue;
-    }
-    const TextTable::Row& row = table.rows[*rows[i]];
+  const auto rows = take_rows(file, table.rows.size(), "time", recorded);
+  std::size_t next = 0;
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
+    const TextTable::Row& row = table.rows[rows[next++]];
     const auto t_ns = time_in(row.fields.front(), kSecond_ns);
     if (!t_ns) recorded.tally.add("rows cannot be read and are left out", table.at(row));
     frame.t_ns = t_ns.value_or(0);
-    if (t_ns) timed.push_back(frame);
-  }
-  recorded.frames = std::move(timed);
+    return !t_ns;
+  });
   put_in_order(recorded.frames, file, recorded.tally);
 }
 
@@ -51,10 +45,10 @@ void read_motion(const scenario::RecordingSource& asked, const fs::path& file,
                  const sim::Pose& T_C0C, Recorded& recorded) {
   const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
   std::vector<PosesMotion::CameraPose> at_frames;
-  const auto rows = rows_of_frames(file, poses.lines.size(), recorded);
+  const auto rows = take_rows(file, poses.lines.size(), "pose", recorded);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i] || !poses.lines[*rows[i]]) continue;
-    at_frames.push_back({recorded.frames[i].t_ns, poses.lines[*rows[i]]->T_WC * T_C0C});
+    const auto& line = poses.lines[rows[i]];
+    if (line) at_frames.push_back({recorded.frames[i].t_ns, line->T_WC * T_C0C});
   }
   move_along(std::move(at_frames), Vector3d(0, -1, 0), asked, file,
              "pictures have no pose and are left out", recorded);

@@ -226,10 +226,10 @@ Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
     }
   }
   std::vector<NavigationState> states;
-  const auto rows = rows_of_frames(oxts, lines.size(), recorded);
+  const auto rows = take_rows(oxts, lines.size(), "state", recorded);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i] || !lines[*rows[i]]) continue;
-    states.push_back(*lines[*rows[i]]);
+    if (!lines[rows[i]]) continue;
+    states.push_back(*lines[rows[i]]);
     states.back().t_ns = recorded.frames[i].t_ns;
   }
   const sim::Pose T_BC = T_BC_of(calibration, projection, "R_rect", calibration.pose("Tr_velo_cam"),

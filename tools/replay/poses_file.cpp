@@ -57,26 +57,13 @@ std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_
   return line;
 }
 
-/// 0 to 2 for x, y, z of the position, 3 to 6 for x, y, z, w of the quaternion; absent for a column
-/// that is of neither.
-std::optional<std::size_t> place_of(const std::string& name) {
-  static const std::set<std::string> kPositions{"p", "pos", "position", "t", "translation"};
-  static const std::set<std::string> kRotations{"q",           "quat", "quaternion",
-                                                "orientation", "rot",  "rotation"};
-  static const std::set<std::string> kOthers{"v", "vel", "velocity",     "twist",      "b",  "bias",
-                                             "a", "acc", "acceleration", "covariance", "std"};
-  std::vector<std::string> words = words_in(name);
-  const std::size_t axis =
-      words.empty() ? std::string::npos : std::string_view("xyzw").find(words.back().back());
-  if (axis == std::string::npos) return std::nullopt;
-  words.back().pop_back();
-  const auto any = [&](const std::set<std::string>& of) {
-    return std::ranges::any_of(words, [&](const std::string& word) { return of.contains(word); });
-  };
-  const bool is_bare = words.size() == 1 && words.front().empty();
-  const bool is_rotation = any(kRotations), is_position = is_bare || any(kPositions);
-  if (any(kOthers) || is_rotation == is_position || (is_position && axis == 3)) return std::nullopt;
-  return axis + (is_rotation ? 3 : 0);
+/// Positions, then quaternions.
+const Quantities& pose_quantities() {
+  static const Quantities kPose{{"", "p", "pos", "position", "t", "translation"},
+                                {"q", "quat", "quaternion", "orientation", "rot", "rotation"},
+                                {"v", "vel", "velocity", "twist", "b", "bias", "a", "acc",
+                                 "acceleration", "covariance", "std"}};
+  return kPose;
 }
 
 /// The columns by the names in the header; absent without a header.
@@ -85,7 +72,7 @@ std::optional<Places> named_places(const TextTable& table) {
   Places places{};
   std::array<int, 7> found{};
   for (std::size_t i = 0; i < table.header.size(); ++i) {
-    const auto place = place_of(table.header[i].name);
+    const auto place = pose_quantities().place_of(table.header[i].name);
     if (!place) continue;
     places[*place] = i;
     const std::string& unit = table.header[i].unit;

@@ -146,57 +146,52 @@ void number_frames(Recorded& recorded, bool are_times) {
   if (greatest == least) all.step = 1;
 }
 
-namespace {
-
-/// The number of the picture of a table's first row; absent if it may be 0 or 1.
-std::optional<std::size_t> first_number(const PictureNumbers& all, std::size_t rows) {
-  if (*all.least == 0 || all.first) return all.begin();
-  if (*all.greatest == rows) return 1;
-  return *all.least > 1 && *all.greatest + 1 == rows ? std::optional(0UL) : std::nullopt;
-}
-
-}  // namespace
-
-std::vector<std::optional<std::size_t>> rows_of_frames(const fs::path& table, std::size_t rows,
-                                                       Recorded& recorded) {
-  if (recorded.numbers.pictures == 0) number_frames(recorded, false);
+std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, const char* what,
+                                   Recorded& recorded) {
   const PictureNumbers& all = recorded.numbers;
-  const auto refuse = [&](const std::string& why) {
-    throw input::Error({table.string(), 0},
-                       "has {} rows for {} pictures, {}; give one row for each of these pictures",
-                       rows, all.pictures, why);
-  };
-  const bool by_number = rows != all.pictures;
-  if (by_number && !all.least) refuse("whose names have no number that counts them");
-  const std::optional<std::size_t> first = by_number ? first_number(all, rows) : std::nullopt;
-  if (by_number && !first) {
-    refuse(fmt::format("whose numbers, {} to {}, may count the rows from 0 or from 1", *all.least,
-                       *all.greatest));
+  if (all.pictures == 0) number_frames(recorded, false);
+  std::optional<std::size_t> first;
+  if (rows != all.pictures && all.least) {
+    const bool ends_with_last = *all.least > 1 && *all.greatest + 1 == rows;
+    first = *all.least == 0 || all.first ? all.begin()
+            : *all.greatest == rows      ? std::optional(1UL)
+            : ends_with_last             ? std::optional(0UL)
+                                         : std::nullopt;
   }
-  std::vector<std::optional<std::size_t>> found;
-  std::string example;
-  std::size_t count = 0;
-  for (const RecordedFrame& frame : recorded.frames) {
-    const std::size_t row = first ? *frame.named - *first : frame.number;  // may wrap: no row
-    found.push_back(row < rows ? std::optional(row) : std::nullopt);
-    if (row < rows && ++count == 1) example = fmt::format("row {} to {}", row + 1, frame.name());
+  std::vector<std::size_t> found;
+  std::string used;
+  if (rows == all.pictures || first) {
+    std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
+      const std::size_t row = first ? *frame.named - *first : frame.number;  // may wrap: no row
+      if (row >= rows) {
+        recorded.tally.add(fmt::format("pictures have no {} and are left out", what), frame.name());
+        return true;
+      }
+      if (found.empty()) used = fmt::format("row {} to {}", row + 1, frame.name());
+      found.push_back(row);
+      return false;
+    });
   }
-  if (count == 0) refuse(fmt::format("and none has the number of a picture, from {}", *all.least));
-  recorded.tally.tell(fmt::format("{} of the {} rows of {} belong to pictures, by {}: {}", count,
-                                  rows, table.string(),
-                                  first ? "the numbers in their names" : "their order", example));
+  if (found.empty()) {
+    throw input::Error(
+        {table.string(), 0},
+        "has {} rows for {} pictures, {}; give one row for each of these pictures", rows,
+        all.pictures,
+        !all.least ? "whose names have no number that counts them"
+                   : fmt::format("{} the numbers {} to {}",
+                                 first ? "and none for" : "which may count from 0 or from 1 by",
+                                 *all.least, *all.greatest));
+  }
+  recorded.tally.tell(fmt::format("{} of the {} rows of {} belong to pictures, by {}: {}",
+                                  found.size(), rows, table.string(),
+                                  first ? "the numbers in their names" : "their order", used));
   return found;
 }
 
 void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file) {
   const PictureNumbers& all = recorded.numbers;
-  if (!recorded.has_own_clock || all.least.value_or(0) < 2 || all.step == 0) return;
-  const RecordedFrame& last = recorded.frames.back();
-  const double period_ns =
-      static_cast<double>(last.t_ns) / static_cast<double>(*last.named - *all.least);
-  const double with_half_before_ns =
-      static_cast<double>(*last.named) - 0.5 * static_cast<double>(*all.least);
-  if (last.t_ns == 0 || static_cast<double>(lasts_ns) < period_ns * with_half_before_ns) {
+  if (!recorded.has_own_clock || all.before_ns == 0) return;
+  if (lasts_ns < recorded.frames.back().t_ns + all.before_ns / 2) {
     recorded.tally.tell(fmt::format("the first row of {} is taken to be at the first picture, {}",
                                     file.string(), recorded.frames.front().name()));
     return;

@@ -141,6 +141,7 @@ struct PictureNumbers {
   std::optional<std::size_t> least, greatest;  ///< absent: the names do not count the pictures
   std::size_t step = 0;  ///< between pictures, of which half are there; 0: they have no such step
   std::optional<std::size_t> first;  ///< that the layout gives its first picture; absent: 0 or 1
+  std::int64_t before_ns = 0;  ///< from number 0 to the first picture, if that is above 1 and known
 
   /// The number of the first picture; absent if the numbers begin with another one, as of a part.
   std::optional<std::size_t> begin() const {
@@ -231,17 +232,15 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded);
 /// Finds the numbers of all pictures, which the frames are. \param are_times the names are times.
 void number_frames(Recorded& recorded, bool are_times);
 
-/// The row (from 0) of a table that belongs to each frame. Row k belongs to the k-th picture if
-/// there are as many rows as pictures. Else it belongs to the picture with number `first + k` in
-/// its name: `first` is the layout's; or 0 if a picture has it; or such that the table ends with
-/// the last picture. Tells how many rows found a picture. \throws input::Error if the counts differ
-/// and the names have no numbers, these may count from 0 or from 1, or no row finds a picture.
-std::vector<std::optional<std::size_t>> rows_of_frames(const fs::path& table, std::size_t rows,
-                                                       Recorded& recorded);
+/// The row (from 0) of a table for each frame; frames without one are left out. As many rows as
+/// pictures are theirs in order. Else row k is of number `first + k`: `first` is the layout's, or 0
+/// if a picture has it, or lets the table end with the last picture. Tells how many rows are used.
+/// \param what the rows state, as "time". \throws input::Error if there is no such number or row.
+std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, const char* what,
+                                   Recorded& recorded);
 
-/// Refuses pictures with a clock of their own whose first one may not be at the first reading:
-/// their numbers begin above 1, and the readings may begin with a picture that is not there. \param
-/// lasts_ns time from the first to the last reading. \param file of the readings.
+/// Refuses pictures without times whose numbers begin above 1 if readings last long enough to begin
+/// with number 0. \param file of the readings.
 void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file);
 
 /// Gives the pictures times at a constant rate, beginning at 0; for a number without a picture the
@@ -249,7 +248,7 @@ void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& fi
 void time_by(double fps, Recorded& recorded);
 
 /// Gives each frame the time that a table has for it. If a column holds names of the pictures, a
-/// row belongs to the picture of its name, else as in `rows_of_frames`. The times are in the column
+/// row belongs to the picture of its name, else as in `take_rows`. The times are in the column
 /// that the header calls so, else in the first one that holds neither names nor counts 0, 1, 2, ...
 /// Frames without a row are left out and counted.
 /// \param time_unit s, ms, us or ns; "": as the table states it, or as a camera's rate needs it.

@@ -70,25 +70,13 @@ Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
 }
 
-/// 0 to 2 for x, y, z of the angular rates, 3 to 5 for x, y, z of the accelerations; absent
-/// for a column that is of neither.
-std::optional<std::size_t> place_of(const std::string& name) {
-  static const std::set<std::string> kRates{"gyro", "gyr", "gyroscope", "gyros", "omega",
-                                            "w",    "g",   "angular",   "ang",   "rotation"};
-  static const std::set<std::string> kForces{"acc",           "accel", "acceleration",
-                                             "accelerometer", "alpha", "a"};
-  static const std::set<std::string> kOthers{"covariance", "b",    "bias", "orientation", "user",
-                                             "motion",     "temp", "raw",  "magnetic"};
-  std::vector<std::string> words = words_in(name);
-  if (words.empty()) return std::nullopt;
-  const char axis = words.back().back();
-  if (axis < 'x' || axis > 'z') return std::nullopt;
-  words.back().pop_back();
-  const auto any = [&](const std::set<std::string>& of) {
-    return std::ranges::any_of(words, [&](const std::string& word) { return of.contains(word); });
-  };
-  if (any(kOthers) || any(kRates) == any(kForces)) return std::nullopt;
-  return static_cast<std::size_t>(axis - 'x') + (any(kForces) ? 3 : 0);
+/// Angular rates, then accelerations.
+const Quantities& imu_quantities() {
+  static const Quantities kImu{
+      {"gyro", "gyr", "gyroscope", "gyros", "omega", "w", "g", "angular", "ang", "rotation"},
+      {"acc", "accel", "acceleration", "accelerometer", "alpha", "a"},
+      {"covariance", "b", "bias", "orientation", "user", "motion", "temp", "raw", "magnetic"}};
+  return kImu;
 }
 
 /// The factor to rad/s or m/s^2 of a unit in a header. \throws input::Error for an unknown one.
@@ -128,8 +116,8 @@ ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& 
   ImuColumns columns{time_column_of(table, times, tally)};
   if (table.header.empty()) return columns;
   for (std::size_t i = 0; i < table.header.size(); ++i) {
-    const auto place = place_of(table.header[i].name);
-    if (!place) continue;
+    const auto place = imu_quantities().place_of(table.header[i].name);
+    if (!place || *place >= is_found.size()) continue;
     if (is_found[*place]) {
       refuse(fmt::format("the columns {} and {} both may be one of the IMU's",
                          table.header[columns.places[*place]].name, table.header[i].name));

@@ -94,35 +94,32 @@ std::string in_lower_case(std::string_view text) {
 /// A table of a tool that needs more than other names of columns.
 struct Foreign {
   std::string_view words;  ///< in a line before its rows
-  const char* name;
-  const char* remedy;
+  const char *name, *header;
 };
 constexpr Foreign kForeign[] = {
     {"x_world_device", "Project Aria's, with poses of the device",
-     "write graph_uid,time [us],utc,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_x,q_RS_y,q_RS_z,q_RS_w and the "
-     "other names as its first line, and give the camera's place on the device by a calibration"},
-    {"x_odometry_device", "Project Aria's, of an odometry",
-     "give the trajectory of the closed loop"},
-    {"vehiclename", "AirSim's, with poses of a vehicle that has x ahead, y right, z down",
-     "write name,time [ms],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,file with its "
-     "tabs as its first line, and give the camera's place on these axes by T_BS of a calibration"},
-    {"tx_m", "Argoverse 2's, with poses of the vehicle",
-     "write time [ns],q_RS_w,q_RS_x,q_RS_y,q_RS_z,p_RS_R_x,p_RS_R_y,p_RS_R_z as its first line, "
-     "and give the camera's place on the vehicle by a calibration or mount"},
-    {"image_id, qw", "COLMAP's, without times and with poses of the world in the camera",
-     "give the folder of the pictures with fps or times, and inverse poses with the header time, "
-     "x, y, z, qx, qy, qz, qw"},
-    {"tscale", "Gyroflow's, in units of its tscale, gscale and ascale",
-     "multiply by these, turn the axes as its orientation says, and write time "
-     "[s],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x [g],a_RS_S_y [g],a_RS_S_z [g] in place of the lines "
-     "before the first row"},
+     "uid,time [us],utc,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_x,q_RS_y,q_RS_z,q_RS_w and its other "
+     "names"},
+    {"vehiclename", "AirSim's, with poses of the vehicle (x ahead, y right, z down)",
+     "name,time,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,file, with its tabs"},
+    {"tx_m", "Argoverse 2's, with poses of the vehicle (x ahead, y left, z up)",
+     "time [ns],q_RS_w,q_RS_x,q_RS_y,q_RS_z,p_RS_R_x,p_RS_R_y,p_RS_R_z"},
+    {"image_id, qw", "COLMAP's: it has no times, and poses of the world in the camera",
+     "time,x,y,z,qx,qy,qz,qw over inverse poses, or give the folder of its pictures and fps"},
+    {"tscale", "Gyroflow's, in other axes and units (orientation, tscale, gscale, ascale)",
+     "time [s],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x [g],a_RS_S_y [g],a_RS_S_z [g] over its readings "
+     "in these"},
 };
 
 void refuse_foreign(const fs::path& file, const std::vector<std::string>& before) {
   for (const std::string& line : before) {
     for (const Foreign& one : kForeign) {
       if (in_lower_case(line).find(one.words) == line.npos) continue;
-      throw input::Error({file.string(), 0}, "this table is {}; {}", one.name, one.remedy);
+      throw input::Error({file.string(), 0}, "this table is {}; for its header write {}{}",
+                         one.name, one.header,
+                         std::string_view(one.header).find("p_RS") < 60
+                             ? ", and give the camera's place there by a calibration"
+                             : "");
     }
   }
 }
@@ -144,6 +141,21 @@ std::vector<std::string> words_in(std::string_view name) {
     before = c;
   }
   return words;
+}
+
+std::optional<std::size_t> Quantities::place_of(std::string_view name) const {
+  std::vector<std::string> words = words_in(name);
+  if (words.empty()) return std::nullopt;
+  const std::size_t axis = std::string_view("xyzw").find(words.back().back());
+  words.back().pop_back();
+  if (words.size() > 1 && words.back().empty()) words.pop_back();
+  const auto any = [&](const std::set<std::string>& of) {
+    return std::ranges::any_of(words, [&](const std::string& word) { return of.contains(word); });
+  };
+  const bool is_second = any(second);
+  const std::size_t most = is_second ? 3 : 2;
+  if (axis > most || any(others) || any(first) == is_second) return std::nullopt;
+  return axis + (is_second ? 3 : 0);
 }
 
 std::string TextTable::columns() const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +54,15 @@ struct TextTable {
 
 /// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
 std::vector<std::string> words_in(std::string_view name);
+
+/// Two quantities of three or four components, by words in the names of their columns.
+struct Quantities {
+  std::set<std::string> first, second, others;  ///< "": a name of the component alone
+
+  /// 0 to 2 for x, y, z of the first, 3 to 6 for x, y, z, w of the second; absent for other
+  /// columns.
+  std::optional<std::size_t> place_of(std::string_view name) const;
+};
 
 /// Reads fields between commas, semicolons (with decimal commas), tabs or blanks, whichever the
 /// first row of numbers has. Of the lines before that row the last one that has as many fields is

@@ -100,17 +100,16 @@ std::size_t irregular_in(std::vector<std::int64_t> t_ns) {
 
 /// Refuses counts of 100 ns since the year 1601 or 1.
 void require_no_ticks(const TextTable& table, std::size_t column) {
+  constexpr std::int64_t kSpan = 20'000'000'000'000'000;
   if (table.rows.empty()) return;
   const TextTable::Row& row = table.rows.front();
-  const auto number = files::number_in<std::int64_t>(TextTable::field(row, column));
-  constexpr std::int64_t kSince1601 = 116'444'736'000'000'000, kSince1 = 621'355'968'000'000'000,
-                         kSpan = 20'000'000'000'000'000;
-  for (const std::int64_t zero : {kSince1601, kSince1}) {
-    if (!number || *number < zero || *number > zero + kSpan) continue;
+  const auto ticks = files::number_in<std::int64_t>(TextTable::field(row, column));
+  for (const std::int64_t at_1970 : {116'444'736'000'000'000, 621'355'968'000'000'000}) {
+    if (!ticks || *ticks < at_1970 || *ticks > at_1970 + kSpan) continue;
     throw input::Error({table.file.string(), row.line},
-                       "its times are ticks of 100 ns since the year {} (Windows, HoloLens); write "
-                       "(t - {}) * 100, ns since 1970",
-                       zero == kSince1 ? 1 : 1601, zero);
+                       "its times are ticks of 100 ns (Windows, HoloLens); write (t - {}) * 100, "
+                       "which are ns since 1970",
+                       at_1970);
   }
 }
 
@@ -147,25 +146,24 @@ TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally
 }
 
 bool lack_zeros(const std::vector<std::string_view>& times) {
-  std::size_t most = 0, least = std::string_view::npos;
-  for (const std::string_view time : times) {
+  const auto fraction_of = [](std::string_view time) {
     const std::size_t point = time.find('.');
-    if (point == time.npos || time.find_first_of("eE-") != time.npos) return false;
-    const std::size_t digits = time.size() - point - 1;
-    most = std::max(most, digits);
-    least = std::min(least, digits);
-  }
-  if (least >= most) return false;
-  std::vector<std::int64_t> as_written_ns, padded_ns;
+    return point == time.npos ? "" : time.substr(point + 1);
+  };
+  std::size_t most = 0;
+  for (const std::string_view time : times) most = std::max(most, fraction_of(time).size());
+  std::vector<std::int64_t> written_ns, padded_ns;
   for (const std::string_view time : times) {
-    const std::size_t point = time.find('.') + 1;
-    if (time.size() - point < most && time.size() - point > 1 && time[point] == '0') return false;
-    std::string padded(time);
-    padded.insert(point, most - (time.size() - point), '0');
-    as_written_ns.push_back(time_in(time, kSecond_ns).value_or(0));
-    padded_ns.push_back(time_in(padded, kSecond_ns).value_or(0));
+    const std::string_view fraction = fraction_of(time);
+    const bool has_zero = fraction.size() > 1 && fraction.size() < most && fraction[0] == '0';
+    if (has_zero || !is_digits(fraction)) return false;
+    const std::string zeros(most - fraction.size(), '0');
+    const std::string_view whole = time.substr(0, time.find('.'));
+    written_ns.push_back(time_in(time, kSecond_ns).value_or(0));
+    padded_ns.push_back(
+        time_in(fmt::format("{}.{}{}", whole, zeros, fraction), kSecond_ns).value_or(0));
   }
-  return irregular_in(std::move(padded_ns)) < irregular_in(std::move(as_written_ns));
+  return irregular_in(std::move(padded_ns)) < irregular_in(std::move(written_ns));
 }
 
 void require_zeros(const TextTable& table, std::size_t column) {
