@@ -307,8 +307,9 @@ std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded, std
     const auto [least, most] = std::ranges::minmax(stated);
     const bool is_from_one = least > 0 && (named_first == 1UL || (least == 1 && most == images));
     const std::size_t from = static_cast<std::size_t>(first.value_or(is_from_one ? 1 : 0));
-    if (!first) lines.push_back(fmt::format("labels: frame_id is taken to count from {}", from));
     const bool are_same = by_name && !named_first;
+    if (!first && !are_same)
+      lines.push_back(fmt::format("labels: frame_id is taken to count from {}", from));
     join_by(
         [&](const Recorded& image) {
           return std::to_string(image.named.value_or(static_cast<std::size_t>(image.number)));

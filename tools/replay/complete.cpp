@@ -376,12 +376,10 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) 
 void time_by(double fps, Recorded& recorded) {
   const PictureNumbers& all = recorded.numbers;
   if (all.least && *all.greatest - *all.least + 1 != all.pictures) {
+    const std::string steps = fmt::format("them in steps of {}, missing ones too", all.step);
     recorded.tally.tell(fmt::format(
-        "{} pictures have the numbers {} to {} in their names: {}", all.pictures, *all.least,
-        *all.greatest,
-        all.step > 0
-            ? fmt::format("{} is a picture's time, which passes for one that is missing", all.step)
-            : "fps counts the pictures alone"));
+        "{} pictures have the numbers {} to {} in their names: fps counts {}", all.pictures,
+        *all.least, *all.greatest, all.step > 0 ? steps : "the pictures alone"));
   }
   for (RecordedFrame& frame : recorded.frames) {
     const std::size_t place = all.step > 0 ? (*frame.named - *all.least) / all.step : frame.number;

@@ -102,7 +102,7 @@ constexpr Foreign kForeign[] = {
      "names"},
     {"vehiclename", "AirSim's, with poses of the vehicle (x ahead, y right, z down)",
      "name,time,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,file, with its tabs"},
-    {"tx_m", "Argoverse 2's, with poses of the vehicle (x ahead, y left, z up)",
+    {"qz,tx_m", "Argoverse 2's, with poses of the vehicle (x ahead, y left, z up)",
      "time [ns],q_RS_w,q_RS_x,q_RS_y,q_RS_z,p_RS_R_x,p_RS_R_y,p_RS_R_z"},
     {"image_id, qw", "COLMAP's: it has no times, and poses of the world in the camera",
      "time,x,y,z,qx,qy,qz,qw over inverse poses, or give the folder of its pictures and fps"},
@@ -210,8 +210,8 @@ std::optional<std::size_t> TextTable::time_column() const {
     if (words.size() > 1 && time_unit_named(words.back())) words.pop_back();
     const bool is_short =
         words.size() == 1 && (words[0] == "t" || words[0] == "ts" || time_unit_named(words[0]));
-    const bool is_time =
-        is_stamp || is_short || name.find("time") != name.npos || name.starts_with("stamp");
+    const bool is_time = is_stamp || is_short || name.find("time") != name.npos ||
+                         name.find("stamp") != name.npos || name.find("epoch") != name.npos;
     if (is_stamp || (is_time && !found)) found = i;
     if (is_stamp) break;
   }
