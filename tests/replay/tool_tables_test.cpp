@@ -277,11 +277,25 @@ TEST_F(ToolTable, OfColmapHasNoTimes) {
       {"its columns are number, moment"});
 }
 
+TEST_F(ToolTable, OfTimesThatCountsFromZeroBelongsToPicturesThatCountFromOne) {
+  test::write(path_, "0 5.1\n1 5.2\n2 5.3\n");
+  Recorded recorded;
+  for (std::size_t i = 0; i < 3; ++i)
+    recorded.frames.push_back({0, fmt::format("img/{}.jpg", i + 1), i});
+  time_by_table(path_, "", recorded);
+  ASSERT_EQ(recorded.frames.size(), 3u);
+  EXPECT_EQ(recorded.frames[0].t_ns, 5'100'000'000);
+}
+
 TEST_F(ToolTable, OfTimesMayStateNumbersAndFoldersOfPictures) {
   const auto stated = times(
       "frame,time_ms\n", [](int i) { return fmt::format("{},{}", i + 1, 100 * (i + 1)); }, 30, 20,
       5);
   EXPECT_EQ(stated.front(), 500) << "picture 5, in the fifth row";
+  const auto both = times(
+      "# id time_ms name\n",
+      [](int i) { return fmt::format("{} {} img/{:05}.jpg", i + 1, 100 * i, i); }, 30, 20, 5);
+  EXPECT_EQ(both.front(), 500) << "names count more than numbers";
   const auto folders = [](const char* first, const char* second) {
     return [=](int i) {
       return fmt::format("{} {}/{:05}.jpg", 100 * (i / 2) + 50 * (i % 2), i % 2 ? second : first,

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include "tools/files/csv.h"
 #include "tools/replay/times.h"
@@ -16,49 +16,7 @@ namespace {
 /// The row of each frame; null for a frame without one.
 using RowOfFrame = std::vector<const TextTable::Row*>;
 
-/// The rows by the names or numbers of pictures in a column; empty unless most rows name one, with
-/// or without its ending, or each picture has a row with its number. \throws input::Error if two
-/// rows name one picture, in other folders.
-RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
-                        const std::vector<RecordedFrame>& frames) {
-  std::map<std::string, std::size_t> frame_of_stem;
-  std::map<std::size_t, std::size_t> frame_of_number;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].picture.empty()) frame_of_stem[frames[i].picture.stem().string()] = i;
-    if (frames[i].named) frame_of_number[*frames[i].named] = i;
-  }
-  RowOfFrame by_name(frames.size()), by_number(frames.size());
-  std::size_t named = 0, numbered = 0;
-  for (const TextTable::Row& row : table.rows) {
-    const std::string_view field = TextTable::field(row, column);
-    const fs::path name = field;
-    auto found = frame_of_stem.find(name.filename().string());
-    if (found == frame_of_stem.end()) found = frame_of_stem.find(name.stem().string());
-    if (found != frame_of_stem.end()) {
-      const auto is_here = [&](const TextTable::Row& of) {
-        const std::string whole = fmt::format("/{}", frames[found->second].picture.string());
-        return whole.ends_with(fmt::format("/{}", TextTable::field(of, column)));
-      };
-      const TextTable::Row*& other = by_name[found->second];
-      ++named;
-      if (!other || (is_here(row) && !is_here(*other))) {
-        other = &row;
-      } else if (!is_here(*other) && TextTable::field(*other, column) != field) {
-        throw input::Error(
-            {table.file.string(), row.line},
-            "{} and {} may both be the picture {}; give the rows of its folder alone",
-            TextTable::field(*other, column), field, frames[found->second].name());
-      }
-    }
-    const auto number = files::number_in<std::size_t>(field);
-    const auto at = number ? frame_of_number.find(*number) : frame_of_number.end();
-    if (at != frame_of_number.end()) numbered += !std::exchange(by_number[at->second], &row);
-  }
-  if (2 * named > table.rows.size()) return by_name;
-  return numbered == frames.size() ? by_number : RowOfFrame{};
-}
-
-/// Whether a column holds the numbers 0 or 1 to N, in any order.
+/// Whether a column holds whole numbers without a gap, in any order.
 bool is_count(const TextTable& table, std::size_t column) {
   std::set<long> numbers;
   for (const TextTable::Row& row : table.rows) {
@@ -66,6 +24,58 @@ bool is_count(const TextTable& table, std::size_t column) {
     if (!number || !numbers.insert(*number).second) return false;
   }
   return numbers.size() > 1 && *numbers.rbegin() - *numbers.begin() == std::ssize(numbers) - 1;
+}
+
+/// The rows by the names of pictures in a column; empty unless most rows name one, with or without
+/// its ending. \throws input::Error if two rows name one picture, in other folders.
+RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
+                        const std::vector<RecordedFrame>& frames) {
+  std::map<std::string, std::size_t> frame_of_stem;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].picture.empty()) frame_of_stem[frames[i].picture.stem().string()] = i;
+  }
+  RowOfFrame rows(frames.size());
+  std::size_t named = 0;
+  for (const TextTable::Row& row : table.rows) {
+    const fs::path name = TextTable::field(row, column);
+    auto found = frame_of_stem.find(name.filename().string());
+    if (found == frame_of_stem.end()) found = frame_of_stem.find(name.stem().string());
+    if (found == frame_of_stem.end()) continue;
+    ++named;
+    const RecordedFrame& frame = frames[found->second];
+    const TextTable::Row*& other = rows[found->second];
+    const auto is_here = [&](const TextTable::Row& of) {
+      const std::string whole = fmt::format("/{}", frame.picture.string());
+      return whole.ends_with(fmt::format("/{}", TextTable::field(of, column)));
+    };
+    if (!other || (is_here(row) && !is_here(*other))) {
+      other = &row;
+    } else if (!is_here(*other) && TextTable::field(*other, column) != name.string()) {
+      throw input::Error({table.file.string(), row.line},
+                         "{} and {} may both be the picture {}; give the rows of its folder alone",
+                         TextTable::field(*other, column), name.string(), frame.name());
+    }
+  }
+  // A count from 0 is not that of the names 1.png, 2.png, ...
+  const bool is_partly = is_count(table, column) && std::ranges::count(rows, nullptr) > 0;
+  return 2 * named > table.rows.size() && !is_partly ? rows : RowOfFrame{};
+}
+
+/// The rows by the numbers of pictures in a column; empty unless it has those of all pictures.
+RowOfFrame rows_by_number(const TextTable& table, std::size_t column,
+                          const std::vector<RecordedFrame>& frames) {
+  std::map<std::size_t, const TextTable::Row*> row_of_number;
+  for (const TextTable::Row& row : table.rows) {
+    const auto number = files::number_in<std::size_t>(TextTable::field(row, column));
+    if (number) row_of_number.emplace(*number, &row);
+  }
+  RowOfFrame rows;
+  for (const RecordedFrame& frame : frames) {
+    const auto found = frame.named ? row_of_number.find(*frame.named) : row_of_number.end();
+    if (found == row_of_number.end()) return {};
+    rows.push_back(found->second);
+  }
+  return rows;
 }
 
 /// Whether a column has numbers that increase from picture to picture, except for a tenth of them.
@@ -109,9 +119,11 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
   }
   RowOfFrame rows;
   std::optional<std::size_t> names;
-  for (std::size_t i = 0; i < table.rows.front().fields.size() && rows.empty(); ++i) {
-    rows = rows_by_name(table, i, recorded.frames);
-    if (!rows.empty()) names = i;
+  for (const auto& rows_by : {rows_by_name, rows_by_number}) {
+    for (std::size_t i = 0; i < table.rows.front().fields.size() && rows.empty(); ++i) {
+      rows = rows_by(table, i, recorded.frames);
+      if (!rows.empty()) names = i;
+    }
   }
   const std::size_t pictures = recorded.frames.size();
   if (!names) {

@@ -10,6 +10,7 @@
 #include "tools/files/csv.h"
 #include "tools/replay/calibration.h"
 #include "tools/replay/recorded.h"
+#include "tools/replay/sensor_csv.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
 
@@ -69,24 +70,6 @@ Lens read_lens(const fs::path& file) {
   return lens;
 }
 
-std::vector<sim::ImuSample> read_imu(const fs::path& file, Tally& tally) {
-  const TextTable table = read_table(file);
-  std::vector<sim::ImuSample> samples;
-  for (const TextTable::Row& row : table.rows) {
-    const auto n = TextTable::numbers(row, 0, 7);
-    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
-    if (!n || !t_ns) {
-      tally.add("rows cannot be read and are left out", table.at(row));
-      continue;
-    }
-    const std::vector<double>& v = *n;
-    samples.push_back({*t_ns, {v[4], v[5], v[6]}, {v[1], v[2], v[3]}});
-  }
-  if (samples.empty())
-    throw input::Error({file.string(), 0}, "has no reading; give t ax ay az gx gy gz");
-  return samples;
-}
-
 }  // namespace
 
 bool is_rpg_events(const fs::path& folder) {
@@ -114,7 +97,8 @@ Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_moti
       asked.calibration && read_calibration(*asked.calibration, asked.camera).T_BS;
   if (is_on_imu && !exact_motion && fs::exists(imu)) {
     SensorReadings readings;
-    readings.imu = read_imu(imu, recorded.tally);
+    const TableTimes in_seconds{"s", {kSlowestImu_hz, kFastestImu_hz, {}}, kSecond_ns};
+    readings.imu = read_imu_csv(imu, in_seconds, recorded.tally, {4, 5, 6, 1, 2, 3});
     move_by_readings(asked, imu, std::move(readings), recorded);
   } else if (fs::exists(truth)) {
     move_by_timed_poses(asked, truth, Vector3d::UnitZ(), recorded);

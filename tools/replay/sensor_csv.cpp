@@ -94,12 +94,13 @@ double factor_of(const TextTable& table, std::size_t column, bool is_rate) {
 
 struct ImuColumns {
   TimeColumn time;
-  std::array<std::size_t, 6> places{1, 2, 3, 4, 5, 6};
+  std::array<std::size_t, 6> places;
   std::array<double, 6> factors{1, 1, 1, 1, 1, 1};
 };
 
 /// \throws input::Error for a header without the six columns.
-ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& tally) {
+ImuColumns find_columns(const TextTable& table, const TableTimes& times,
+                        const std::array<std::size_t, 6>& places, Tally& tally) {
   std::array<bool, 6> is_found{};
   const auto refuse = [&](const std::string& why) {
     throw input::Error({table.file.string(), 1},
@@ -113,7 +114,7 @@ ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& 
   const std::size_t fields = table.rows.empty() ? 0 : table.rows.front().fields.size();
   if (table.header.empty() && fields > 7 && !table.rows.front().fields[7].empty())
     refuse("its columns are not those of an IMU alone");
-  ImuColumns columns{time_column_of(table, times, tally)};
+  ImuColumns columns{time_column_of(table, times, tally), places};
   if (table.header.empty()) return columns;
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const auto place = imu_quantities().place_of(table.header[i].name);
@@ -240,9 +241,9 @@ void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
 }  // namespace
 
 std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes& times,
-                                         Tally& tally) {
+                                         Tally& tally, const std::array<std::size_t, 6>& places) {
   const TextTable table = read_table(file);
-  const ImuColumns columns = find_columns(table, times, tally);
+  const ImuColumns columns = find_columns(table, times, places, tally);
   std::vector<sim::ImuSample> samples;
   for (const NumberRow& row : rows_of(table, columns.time, columns.places, {}, tally)) {
     std::array<double, 6> n{};

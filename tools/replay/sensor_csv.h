@@ -3,6 +3,7 @@
 /// out of order sorted, and duplicate times used once; all of this is counted.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,10 +20,13 @@ namespace lcs::replay {
 
 /// Columns are as in EuRoC, or have other usual names (ROS, Kalibr, loggers of phones), with
 /// units in the header; without a header: time, angular rates in rad/s, accelerations in m/s^2.
+/// \param places of the angular rates and accelerations without a header.
 /// \throws input::Error if the file is unreadable, has no reading, or has readings that no IMU can
 /// have: rates in deg/s, accelerations in g or without gravity, the two interchanged.
 std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes& times,
-                                         Tally& tally);
+                                         Tally& tally,
+                                         const std::array<std::size_t, 6>& places = {1, 2, 3, 4, 5,
+                                                                                     6});
 
 /// Yaw rates are in an optional fifth column.
 std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const TableTimes& times,
