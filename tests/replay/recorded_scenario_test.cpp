@@ -523,6 +523,27 @@ TEST_F(RecordedScenario, OfAVideoWithATableOfTimesHasThem) {
   EXPECT_EQ(t_ms, (std::vector<std::int64_t>{5000, 5100, 5350, 5400}));
 }
 
+TEST_F(RecordedScenario, LabelsOfAVideoAreThoseOfItsPicturesInOrder) {
+  {
+    const auto video = test::new_video(home() / "road.avi", "MJPG", 10, {160, 120});
+    for (int k = 0; k < kFrames; ++k) video->write(view(k));
+  }
+  write(home() / "gt.txt", "1,1,1,1,5,5\n4,1,9,1,5,5\n");
+  const std::string recording = "path: road.avi, speed: 0, focal: 300, labels: gt.txt";
+  Playback labelled = playback(recording);
+  for (int k = 0; k < kFrames; ++k) {
+    recording::FrameRecord frame;
+    cv::Mat3b image;
+    ASSERT_TRUE(labelled.next(frame, image));
+    labelled.label(frame);
+    EXPECT_EQ(frame.labels.has_value(), k == 0 || k == 3) << k;
+  }
+  write(home() / "gt.txt", "1,1,1,1,5,5\n5,1,9,1,5,5\n");
+  EXPECT_NE(refusal(recording).find("gt.txt: they go to frame 5, and the recording has 4 pictures"),
+            std::string::npos)
+      << refusal(recording);
+}
+
 TEST_F(RecordedScenario, AUnitOfTimeIsThatOfTheImuWherePicturesHaveARate) {
   draw(home() / "pictures", "{:06}.png");
   std::string imu = "t,w_x,w_y,w_z,a_x,a_y,a_z\n";

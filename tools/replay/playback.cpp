@@ -64,8 +64,9 @@ void Playback::read_labels() {
   const std::size_t count = first ? *all.greatest - *first + 1 : all.pictures;
   std::vector<recording::Labels::Recorded> pictures;
   for (const RecordedFrame& frame : recorded_.frames) {
-    pictures.push_back({static_cast<int>(frame.number),
-                        fs::absolute(frame.picture).lexically_normal().string(), frame.named});
+    const bool has_file = !frame.picture.empty();
+    const fs::path file = has_file ? fs::absolute(frame.picture).lexically_normal() : fs::path();
+    pictures.push_back({static_cast<int>(frame.number), file.string(), frame.named});
   }
   try {
     for (std::string& line : labels_.join(pictures, count, first))
