@@ -175,6 +175,8 @@ TEST_F(JoinedRows, ForANumberThatIsMissingTheTimeOfAPicturePasses) {
   expect_told(recorded, "4 pictures have the numbers 3 to 7");
   draw("pictures", {0, 5, 10, 20});
   EXPECT_EQ(tenths(read(nullptr, nullptr, 10)), (std::vector<std::int64_t>{0, 1, 2, 4}));
+  draw("pictures", {58, 59, 100, 101}, "IMG_20240102_{:06}.png");  // a time of day
+  EXPECT_EQ(tenths(read(nullptr, nullptr, 10)), (std::vector<std::int64_t>{0, 1, 2, 3}));
   draw("pictures", {5, 1000, 70000});  // no count of pictures
   EXPECT_EQ(tenths(read(nullptr, nullptr, 10)), (std::vector<std::int64_t>{0, 1, 2}));
 }

@@ -239,6 +239,8 @@ TEST_F(ToolTable, WhoseClockFallsBackIsRefused) {
   }
   expect_refused([&] { imu(header, [&](int i) { return row(i < 200 ? 5 * i : 5 * i - 52); }); },
                  {"its clock falls back"});
+  expect_refused([&] { imu(header, [&](int i) { return row(5 * (i % 20)); }); },
+                 {"its clock falls back from 95000000 to 0 ns"});
   EXPECT_EQ(imu(header, [&](int i) { return row(5 * ((i + 200) % 400)); }).size(), 400u)
       << "halves in the wrong order";
   EXPECT_EQ(imu(header, [&](int i) { return row(5 * (i ^ 3)); }).size(), 400u)
@@ -291,6 +293,13 @@ TEST_F(ToolTable, OfTimesMayStateNumbersAndFoldersOfPictures) {
   const auto stated = times(
       "frame,time_ms\n", [](int i) { return fmt::format("{},{}", i + 1, 100 * (i + 1)); }, 30, 20,
       5);
+  const auto pairs = times("sec,nsec,name\n", [](int i) {
+    return fmt::format("{},{},{:05}.jpg", 7 + i / 10, i % 10 * 100'000'000, i);
+  });
+  EXPECT_EQ(pairs[12], 8200);
+  const auto exposed = times("name,exposure_time,timestamp [ms]\n",
+                             [](int i) { return fmt::format("{:05},30,{}", i, 100 * i); });
+  EXPECT_EQ(exposed[12], 1200);
   EXPECT_EQ(stated.front(), 500) << "picture 5, in the fifth row";
   const auto both = times(
       "# id time_ms name\n",

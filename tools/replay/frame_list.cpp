@@ -91,11 +91,10 @@ bool increases(const RowOfFrame& rows, std::size_t column) {
   return before && 10 * falls <= rows.size();
 }
 
-/// \param names the column of names or numbers, if there is one.
+/// The column of times where no header names it. \param names column of names, if there is one.
 std::size_t time_column(const TextTable& table, std::optional<std::size_t> names,
                         const RowOfFrame& rows) {
   const std::size_t columns = table.rows.front().fields.size();
-  if (const auto named = table.time_column()) return *named;
   const bool has_header = !table.header.empty() && !table.is_comment;
   for (std::size_t i = 0; i < columns && !has_header; ++i) {
     const bool is_number =
@@ -137,14 +136,19 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
                        "picture, or a column with the names of the pictures",
                        table.rows.size(), pictures);
   }
-  const std::size_t column = time_column(table, names, rows);
-  const std::int64_t unit_ns = time_unit_of(
-      table, column, time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}, recorded.tally);
+  const TableTimes times{time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}};
+  TimeColumn time;
+  if (table.time_column()) {
+    time = time_column_of(table, times, recorded.tally);
+  } else {
+    time.column = time_column(table, names, rows);
+    time.unit_ns = times.unit_ns(table, time.column, recorded.tally);
+  }
   std::vector<RecordedFrame> timed;
   for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
     RecordedFrame& frame = recorded.frames[i];
     const TextTable::Row* row = rows[i];
-    const auto t_ns = row ? time_in(TextTable::field(*row, column), unit_ns) : std::nullopt;
+    const auto t_ns = row ? time.of(*row) : std::nullopt;
     if (row && !t_ns && !names) {
       throw input::Error({file.string(), row->line},
                          "holds no time, and the rows do not name their pictures; give one");

@@ -259,7 +259,7 @@ std::vector<std::size_t> numbers_in(const std::vector<fs::path>& files) {
       std::ranges::all_of(names, [&](const Name& n) { return n.words == names.front().words; });
   if (names.empty() || (!have_one && !are_alike)) return {};
   const std::vector<std::size_t> places = have_one ? std::vector{0UL} : varying(names);
-  if (places.size() != 1) return {};
+  if (places.size() != 1 || std::ranges::all_of(names, is_calendar)) return {};
   std::vector<std::size_t> numbers;
   for (const Name& name : names) {
     const Number& number = name.numbers[places.front()];

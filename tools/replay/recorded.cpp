@@ -30,7 +30,7 @@ std::vector<std::string> Tally::lines() const {
 }
 
 void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string& source) {
-  constexpr std::size_t kMostFalls = 8;  // more are of rows that are late
+  constexpr std::size_t kLeastRows = 10;  // in a part; fewer are late
   std::vector<std::pair<std::int64_t, std::size_t>>
       parts;  // the time, and how often the clock fell before
   std::size_t first_fall = 0, falls = 0, changes = 0, distinct = 0;
@@ -43,7 +43,7 @@ void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string&
     changes += parts[i].second != parts[i - 1].second;
     distinct += parts[i].first != parts[i - 1].first;
   }
-  if (falls > 0 && falls <= kMostFalls && changes > 2 * (falls + 1)) {
+  if (falls > 0 && falls <= 1 + t_ns.size() / kLeastRows && changes > 2 * (falls + 1)) {
     throw input::Error({source, 0},
                        "its clock falls back from {} to {} ns, and its times after that are among "
                        "those before; give the rows before or after that alone",

@@ -212,7 +212,8 @@ std::optional<std::size_t> TextTable::time_column() const {
         words.size() == 1 && (words[0] == "t" || words[0] == "ts" || time_unit_named(words[0]));
     const bool is_time = is_stamp || is_short || name.find("time") != name.npos ||
                          name.find("stamp") != name.npos || name.find("epoch") != name.npos;
-    if (is_stamp || (is_time && !found)) found = i;
+    const bool is_span = name.find("exposure") != name.npos;
+    if (is_stamp || (is_time && !is_span && !found)) found = i;
     if (is_stamp) break;
   }
   return found;
