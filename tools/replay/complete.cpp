@@ -393,8 +393,9 @@ void time_by(double fps, Recorded& recorded) {
   }
   recorded.has_own_clock = true;
   if (all.step > 0 && *all.least > 1) {
+    const double before_ns = static_cast<double>(*all.least / all.step) * 1e9 / fps;
     recorded.numbers.before_ns =
-        std::llround(static_cast<double>(*all.least / all.step) * 1e9 / fps);
+        std::llround(std::min(before_ns, static_cast<double>(kFarthest_ns)));
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "scenarios/input/error.h"
@@ -87,15 +86,14 @@ bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
-/// Counts differences of sorted times that are not near the usual one.
-std::size_t irregular_in(std::vector<std::int64_t> t_ns) {
-  std::ranges::sort(t_ns);
-  std::adjacent_difference(t_ns.begin(), t_ns.end(), t_ns.begin());
-  if (!t_ns.empty()) t_ns.erase(t_ns.begin());
-  const std::int64_t usual_ns = usual(t_ns).value_or(0);
-  return static_cast<std::size_t>(std::ranges::count_if(t_ns, [&](std::int64_t step_ns) {
-    return 2 * step_ns < usual_ns || 2 * step_ns > 3 * usual_ns;
-  }));
+/// Counts differences of sorted times, in ns, that are not near the usual one.
+std::size_t irregular_in(std::vector<double> times) {
+  std::ranges::sort(times);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  const double one = usual(steps).value_or(0);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      steps, [&](double step) { return step < 0.5 * one || step > 1.5 * one; }));
 }
 
 /// Refuses counts of 100 ns since the year 1601 or 1.
@@ -152,18 +150,18 @@ bool lack_zeros(const std::vector<std::string_view>& times) {
   };
   std::size_t most = 0;
   for (const std::string_view time : times) most = std::max(most, fraction_of(time).size());
-  std::vector<std::int64_t> written_ns, padded_ns;
+  std::vector<double> written, padded;
   for (const std::string_view time : times) {
     const std::string_view fraction = fraction_of(time);
     const bool has_zero = fraction.size() > 1 && fraction.size() < most && fraction[0] == '0';
     if (has_zero || !is_digits(fraction)) return false;
     const std::string zeros(most - fraction.size(), '0');
     const std::string_view whole = time.substr(0, time.find('.'));
-    written_ns.push_back(time_in(time, kSecond_ns).value_or(0));
-    padded_ns.push_back(
-        time_in(fmt::format("{}.{}{}", whole, zeros, fraction), kSecond_ns).value_or(0));
+    const std::string full = fmt::format("{}.{}{}", whole, zeros, fraction);
+    written.push_back(static_cast<double>(time_in(time, kSecond_ns).value_or(0)));
+    padded.push_back(static_cast<double>(time_in(full, kSecond_ns).value_or(0)));
   }
-  return irregular_in(std::move(padded_ns)) < irregular_in(std::move(written_ns));
+  return irregular_in(std::move(padded)) < irregular_in(std::move(written));
 }
 
 void require_zeros(const TextTable& table, std::size_t column) {
