@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the paper's claims in simulation, and writes filter/paper/STORY.md with its pictures.
 
-    tools/docs/story.py            after tools/run; takes about five minutes
+    tests/docs/story.py            after tools/run; takes about five minutes
 
 Needs python3-opencv, for the pictures.
 """
@@ -118,7 +118,7 @@ def page(runs):
              ("lab.yaml", "the paper's, `lab`", "lab"), ("lab.yaml", "default", "lab, default"))])
     return f"""# The paper's story, measured
 
-Written on {datetime.date.today()} by `tools/docs/story.py`. The figures are of simulated drives, for which the truth is known. Figures per frame
+Written on {datetime.date.today()} by `tests/docs/story.py`. The figures are of simulated drives, for which the truth is known. Figures per frame
 are means over the frames from the tenth on. `street_drive.yaml` is cut to its first 250 frames.
 
 ## Line, Circle, Square: one run
