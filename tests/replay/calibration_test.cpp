@@ -137,8 +137,10 @@ acc_n: 0.1
 gyr_n: 0.01
 acc_w: 0.001
 gyr_w: 0.0001
+td: 0.25
 )",
                                                   kT_BC));
+  EXPECT_EQ(vins.time_offset_s, 0.25);
   expect_lens(vins.lens, {0.1, 0.2, 0.3, 0.4});
   expect_size(vins.lens);
   expect_ahead(vins.T_BS);

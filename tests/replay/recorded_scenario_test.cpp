@@ -593,7 +593,8 @@ TEST_F(RecordedScenario, OfPicturesOfTwoSizesTakesThatOfMost) {
 TEST_F(RecordedScenario, OfPicturesThatUse12Of16BitsIsAsBrightAsOf8) {
   for (int k = 0; k < kFrames; ++k) {
     cv::Mat deep;
-    view(k).convertTo(deep, CV_16U, 16);  // 255 becomes 4080
+    view(k).convertTo(deep, CV_16U, 16);              // 255 becomes 4080
+    deep.reshape(1).at<std::uint16_t>(0, 0) = 65535;  // a hot pixel, of blue
     test::write_picture(home() / "deep" / fmt::format("{}.png", k), deep);
   }
   Playback deep = playback("path: deep, fps: 10, focal: 300, speed: 0");
@@ -602,8 +603,21 @@ TEST_F(RecordedScenario, OfPicturesThatUse12Of16BitsIsAsBrightAsOf8) {
   const Seen seen = all_of(deep);
   ASSERT_EQ(seen.images.size(), static_cast<std::size_t>(kFrames));
   for (int k = 0; k < kFrames; ++k) {
-    EXPECT_EQ(cv::norm(seen.images[static_cast<std::size_t>(k)], view(k), cv::NORM_INF), 0);
+    cv::Mat3b expected = view(k);
+    expected(0, 0)[0] = 255;
+    EXPECT_EQ(cv::norm(seen.images[static_cast<std::size_t>(k)], expected, cv::NORM_INF), 0);
   }
+}
+
+TEST_F(RecordedScenario, OfAFisheyeThatIsGivenAsAPlainLensIsRefused) {
+  draw(home() / "pictures", "{}.png");
+  const std::string base = "path: pictures, fps: 10, focal: 100, speed: 0, distortion: ";
+  for (const char* fisheye : {"[-0.002, 0.038, -0.036, 0.006, 0]", "[-0.9, 0, 0, 0, 0]"}) {
+    EXPECT_NE(refusal(base + fisheye).find("distortion_model: equidistant"), std::string::npos)
+        << fisheye;
+  }
+  playback(base + "[-0.28, 0.07, 0.0002, 0.00002, 0]");
+  playback(base + "{equidistant: [-0.002, 0.038, -0.036, 0.006]}");
 }
 
 TEST_F(RecordedScenario, IsWhatReplayMakesOfItsOptions) {

@@ -89,6 +89,17 @@ std::size_t still_parts(const std::vector<Part>& parts, double gravity_mps2) {
   return still;
 }
 
+/// The mean of the middle half of the values of each axis.
+Vector3d middle_mean(std::vector<Vector3d> values) {
+  Vector3d mean = Vector3d::Zero();
+  const auto cut = values.size() / 4;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::sort(values, {}, [axis](const Vector3d& value) { return value[axis]; });
+    for (std::size_t i = cut; i < values.size() - cut; ++i) mean[axis] += values[i][axis];
+  }
+  return mean / static_cast<double>(values.size() - 2 * cut);
+}
+
 Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   const Part all = part_of(readings);
   Rest rest;
@@ -125,6 +136,29 @@ std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
       rest_of(readings.first(static_cast<std::size_t>(end - readings.begin())), gravity_mps2);
   rest.moved = moved;
   return rest;
+}
+
+bool Beginning::is_still() const {
+  return rate_S_radps.norm() <= kMostBias_radps;
+}
+
+Beginning beginning_of(std::span<const sim::ImuSample> readings) {
+  constexpr std::int64_t kSpan_ns = 500'000'000;
+  std::vector<Vector3d> forces_mps2, rates_radps;
+  Eigen::Quaterniond q_S0S = Eigen::Quaterniond::Identity();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const sim::ImuSample& reading = readings[i];
+    if (reading.t_ns - readings.front().t_ns > kSpan_ns) break;
+    if (i > 0) {
+      const double dt_s = 1e-9 * static_cast<double>(reading.t_ns - readings[i - 1].t_ns);
+      const double turn_rad = reading.gyro_radps.norm() * dt_s;
+      q_S0S = q_S0S * Eigen::Quaterniond(
+                          Eigen::AngleAxisd(turn_rad, reading.gyro_radps.stableNormalized()));
+    }
+    forces_mps2.push_back(q_S0S * reading.accel_mps2);
+    rates_radps.push_back(reading.gyro_radps);
+  }
+  return {middle_mean(forces_mps2), middle_mean(rates_radps), static_cast<int>(rates_radps.size())};
 }
 
 void tell_rest(const Rest& rest, Tally& tally) {

@@ -1,5 +1,6 @@
 /// \file
-/// The biases and the upright direction from the readings of an IMU at rest.
+/// The start of dead reckoning from the first readings of an IMU: the upright direction, and at
+/// rest the biases.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,6 +28,19 @@ struct Rest {
 /// \return absent if no duration is given and the IMU is not at rest.
 std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
                                   std::optional<double> said_s, double gravity_mps2);
+
+/// Up and rate at the first reading, by the readings of half a second. Each is the mean of the
+/// middle half of the values, so that a bump or a wrong reading does not count.
+struct Beginning {
+  Vector3d up_S_mps2 = Vector3d::Zero();     ///< turned back to the first reading by the gyroscope
+  Vector3d rate_S_radps = Vector3d::Zero();  ///< of the readings as they are
+  int count = 0;                             ///< of the readings
+  /// S is held still: the rate is one that a gyroscope's bias can have.
+  bool is_still() const;
+};
+
+/// \param readings by time, from the start on; at least one.
+Beginning beginning_of(std::span<const sim::ImuSample> readings);
 
 /// Reports the rest that was found, and a contradiction with the given duration.
 void tell_rest(const Rest& rest, Tally& tally);

@@ -54,7 +54,10 @@ void run_reader(const std::vector<std::string>& arguments, int out, const input:
   std::string said = end.err;
   constexpr std::string_view kPrefix = "error: ";
   if (said.starts_with(kPrefix)) said.erase(0, kPrefix.size());
-  if (said.starts_with(where.file + ": ")) said.erase(0, where.file.size() + 2);
+  const std::string& bag = arguments.front();  // its whole path
+  if (said.starts_with(bag + ": ") && fs::absolute(where.file) == bag) {
+    said.erase(0, bag.size() + 2);
+  }
   throw input::Error(where, said.empty() ? "the bag was not read to its end; run it again"
                                          : input::one_line(said));
 }
@@ -90,6 +93,7 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
   for (const auto& [option, topic] : options) {
     if (!topic.empty()) arguments.push_back(fmt::format("{}={}", option, topic));
   }
+  if (motion_is_asked(asked)) arguments.emplace_back("--own-motion");
   arguments.push_back("--out=" + made.string());
   run_reader(arguments, -1, asked.source);
 
@@ -100,8 +104,28 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
   const bool by_poses = !motion_is_asked(asked) && !by_imu && fs::exists(made / kPosesFile);
   // With poses EuRoC's own motion is not read; without any motion there is none to read.
   if (!motion_is_asked(asked) && !by_imu) inner.poses = made / kPosesFile;
-  Recorded recorded = read_euroc(inner, exact_motion);
-  if (by_poses) move_by_poses(inner, true, recorded);
+  const auto read = [&] {
+    Recorded recorded = read_euroc(inner, exact_motion);
+    if (by_poses) {
+      move_by_poses(inner, true, recorded);
+      recorded.took.insert({"topics.poses", "topics.world"});
+    }
+    return recorded;
+  };
+  Recorded recorded = [&] {
+    try {
+      return read();
+    } catch (const input::Error& error) {
+      std::string said = error.what();
+      if (!said.starts_with(folder->path().string())) throw;
+      // People do not have that file, and a bag has no header that could state a unit.
+      said.erase(0, said.find(": ") + 2);
+      said.erase(std::min(said.size(), said.find(", or put their unit into the header")));
+      const std::string& topic = by_poses ? topics.poses : topics.imu;
+      throw input::Error(asked.source, "{}, of the bag's {}: correct the bag's messages; {}", said,
+                         topic.empty() ? "only such topic" : topic, kNeutralWay);
+    }
+  }();
   recorded.keep = folder;
   files::read_json(made / "bag.json", kMessages, [&](const files::JsonNode& json) {
     json["told"].each([&](const files::JsonNode& line) { recorded.tally.tell(line.text()); });

@@ -383,6 +383,8 @@ SensorCalibration read(const std::filesystem::path& file, const std::string& cam
   } else {
     calibration.noise = read_noise(keys);
   }
+  calibration.time_offset_s = keys.number({"td"}, kTimeShift);
+  calibration.has_cameras = keys.has("cam0") || own_file || keys.has("Camera2.fx");
   if (keys.has("cam0")) {
     read_camchain(yaml, keys, camera, calibration);
   } else if (own_file) {

@@ -20,8 +20,9 @@ struct SensorCalibration {
   /// inverted, OpenVINS's T_imu_cam, ORB-SLAM's T_b_c1, and VINS's body_T_cam0. Then B is the IMU.
   std::optional<sim::Pose> T_BS;
   std::optional<double> rate_hz;
-  std::optional<double> time_offset_s;             ///< of a camera: Kalibr's timeshift_cam_imu
-  std::optional<scenario::ImuNoise> noise;         ///< of an IMU; turn-on biases are 0
+  std::optional<double> time_offset_s;      ///< of a camera: Kalibr's timeshift_cam_imu, VINS's td
+  bool has_cameras = false;                 ///< the name of a camera chose one of several
+  std::optional<scenario::ImuNoise> noise;  ///< of an IMU; turn-on biases are 0
   std::map<std::string, input::Source> keys = {};  ///< top-level keys and their places
 };
 

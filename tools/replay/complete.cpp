@@ -30,6 +30,7 @@ constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
 bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
   if (asked.times) {
     time_by_table(*asked.times, asked.time_unit, recorded);
+    recorded.took.insert("time_unit");
     return true;
   }
   if (recorded.timed) {
@@ -37,7 +38,11 @@ bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
     std::vector<std::int64_t> times_ns;
     for (const RecordedFrame& frame : recorded.frames) times_ns.push_back(frame.t_ns);
     const std::optional<double> own_hz = usual_rate_hz(times_ns);
-    if (!asked.fps || (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame)) return true;
+    if (!asked.fps) return true;
+    if (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame) {
+      recorded.tally.tell("fps has no effect: the recording itself has times of that rate");
+      return true;
+    }
     throw input::Error(asked.source,
                        "the recording itself says when its pictures were taken, {:.3g} a second, "
                        "and fps says {:.3g}; remove fps",
@@ -106,9 +111,8 @@ std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool o
 }
 
 /// Turns poses of the body into poses of the camera.
-void join_camera(const scenario::RecordingSource& asked, PosesFile& file,
-                 const Recorded& recorded) {
-  const std::optional<sim::Pose> T_BC = camera_on_body(asked, recorded.T_BC);
+void join_camera(const scenario::RecordingSource& asked, PosesFile& file, Recorded& recorded) {
+  const std::optional<sim::Pose> T_BC = camera_on_body(asked, recorded.T_BC, recorded);
   if (!T_BC) {
     throw input::Error({asked.poses->string(), 0},
                        "its poses are the body's (p_RS_R_x); give the camera's place on it, "
@@ -134,6 +138,19 @@ void calibrate_at_rest(const scenario::RecordingSource& asked, SensorReadings& r
   tell_rest(*rest, tally);
 }
 
+/// Refuses a ground that would be above the picture or behind the camera.
+void require_ground_in_view(const scenario::RecordingSource& asked, const Recorded& recorded) {
+  constexpr double kAbove = 0.2, kBehind = 0.8;  // of up, along y and z of the camera
+  const auto up_C = asked.camera_height_m ? recorded.motion->up_C() : std::nullopt;
+  if (!up_C || (up_C->y() < kAbove && up_C->z() < kBehind)) return;
+  throw input::Error(
+      asked.source,
+      "up is ({:.2f}, {:.2f}, {:.2f}) in the camera's axes (x right, y down, z ahead), so that the "
+      "ground would not be in the picture; accelerations of iOS (CoreMotion) have the other sign, "
+      "so change it; or correct the camera's place on the IMU, or remove camera_height",
+      up_C->x(), up_C->y(), up_C->z());
+}
+
 /// Refuses readings whose axes are not the vehicle's, by where the accelerometer says up is.
 void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs::path& path) {
   constexpr double kUpright = 0.7;  // cosine of the angle to z, for any slope
@@ -154,8 +171,49 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs:
                      up.x(), up.y(), up.z());
 }
 
+/// From each pose to the next: m and rad.
+std::vector<double> ways_of(const std::vector<PosesMotion::CameraPose>& poses) {
+  std::vector<double> ways;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const sim::Pose &a = poses[i - 1].T_WC, &b = poses[i].T_WC;
+    ways.push_back((b.p - a.p).norm() + (b.R - a.R).norm());
+  }
+  return ways;
+}
+
+/// Removes poses that repeat the one before to the bit, where this is no camera that stands: all
+/// are held until the next, or the next is a jump.
+void drop_held(std::vector<PosesMotion::CameraPose>& poses, Tally& tally) {
+  constexpr double kNearlyAll = 0.8, kJump = 3;
+  const std::vector<double> ways = ways_of(poses);
+  std::vector<double> moved;
+  double after_a_repeat = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (ways[i] == 0) continue;
+    moved.push_back(ways[i]);
+    after_a_repeat += i > 0 && ways[i - 1] == 0;
+  }
+  const bool are_held = after_a_repeat > kNearlyAll * static_cast<double>(moved.size());
+  const double jump = kJump * usual(moved).value_or(0);
+  std::vector<PosesMotion::CameraPose> kept;
+  double next = 0;  // the next way that is not 0
+  for (std::size_t i = poses.size(); i-- > 0;) {
+    const bool is_repeat = i > 0 && ways[i - 1] == 0;
+    if (is_repeat && next > 0 && (are_held || next > jump)) {
+      tally.add("poses repeat the one before while the camera moves, and are left out",
+                fmt::format("at {} ns", poses[i].t_ns));
+    } else {
+      kept.push_back(poses[i]);
+    }
+    if (i > 0 && ways[i - 1] > 0) next = ways[i - 1];
+  }
+  std::ranges::reverse(kept);
+  poses = std::move(kept);
+}
+
 void move_by_imu(const scenario::RecordingSource& asked, Recorded& recorded) {
   SensorReadings readings;
+  recorded.took.insert("time_unit");
   const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
   readings.imu = read_imu_csv(*asked.imu, of_imu, recorded.tally);
   if (asked.odometry) {
@@ -174,8 +232,9 @@ void set_motion(const scenario::RecordingSource& asked, bool times_known, bool i
     move_by_poses(asked, times_known, recorded);
   } else if (asked.imu) {
     if (times_known) move_by_imu(asked, recorded);
-  } else if (asked.speed_mps) {
+  } else if (asked.speed_mps && motion_is_asked(asked)) {
     recorded.motion = std::make_unique<SteadyMotion>(*asked.speed_mps, asked.mount_rpy_rad);
+    if (asked.camera_height_m) recorded.took.insert("mount");
   } else if (!recorded.motion && !is_told) {
     recorded.lacks.emplace_back("how the camera moved (poses, imu, or speed: 0 where it stands)");
   }
@@ -199,7 +258,9 @@ void require_lens(const Lens& lens) {
 
 void set_lens(const scenario::RecordingSource& asked, Recorded& recorded) {
   if (asked.calibration) {
-    recorded.lens = read_calibration(*asked.calibration, asked.camera).lens;
+    const SensorCalibration calibration = read_calibration(*asked.calibration, asked.camera);
+    if (calibration.has_cameras) recorded.took.insert("camera");
+    recorded.lens = calibration.lens;
     if (!recorded.lens) {
       throw input::Error({asked.calibration->string(), 0},
                          "holds no calibration of a camera; give one with intrinsics");
@@ -250,15 +311,30 @@ std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
   return std::nullopt;
 }
 
+/// With the files of a neutral folder (NEUTRAL.md) in place of keys that are not given.
+scenario::RecordingSource with_neutral_files(scenario::RecordingSource asked) {
+  const auto take = [&](const char* name, std::optional<fs::path>& key) {
+    const fs::path file = asked.path / name;
+    if (!key && fs::exists(file)) key = file;
+  };
+  if (!asked.poses && !asked.imu && !asked.speed_mps) take("poses.csv", asked.poses);
+  if (!asked.poses) take("imu.csv", asked.imu);
+  if (!asked.focal_px) take("calibration.yaml", asked.calibration);
+  return asked;
+}
+
 }  // namespace
 
 std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
-                                        const std::optional<sim::Pose>& otherwise) {
+                                        const std::optional<sim::Pose>& otherwise,
+                                        Recorded& recorded) {
   if (asked.mount_rpy_rad) {
+    recorded.took.insert("mount");
     return sim::Pose{camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
   }
   if (!asked.calibration) return otherwise;
   const auto stated = read_calibration(*asked.calibration, asked.camera).T_BS;
+  if (stated) recorded.took.insert("calibration");
   return stated ? stated : otherwise;
 }
 
@@ -267,13 +343,14 @@ void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded
   if (!offset_s && asked.calibration) {
     offset_s = read_calibration(*asked.calibration, asked.camera).time_offset_s;
   }
-  recorded.took_time_offset = true;
+  recorded.took.insert("time_offset");
   const std::int64_t offset_ns = std::llround(1e9 * offset_s.value_or(0));
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += offset_ns;
 }
 
 void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Recorded& recorded) {
   PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);
+  if (file.timed) recorded.took.insert("time_unit");
   if (file.of_body) join_camera(asked, file, recorded);
   const bool by_line = !file.timed || !times_known;
   if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
@@ -301,6 +378,7 @@ void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Rec
 void move_by_timed_poses(const scenario::RecordingSource& asked, const fs::path& file,
                          const Vector3d& up_W, Recorded& recorded) {
   const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
+  recorded.took.insert("time_unit");
   if (!poses.timed) {
     throw input::Error({file.string(), 0},
                        "its poses have no times; give them as TUM has them, or poses of your own");
@@ -317,13 +395,20 @@ void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<
                            "none of the poses belongs to a picture; give a line for each picture"));
   }
   sort_by_time(poses, "poses", file.string(), recorded.tally);
+  drop_held(poses, recorded.tally);
+  std::vector<double> ways = ways_of(poses);
+  const double usual_way = usual(ways).value_or(0);
+  const std::vector<std::int64_t> times_ns = stamps_of(poses);
   std::optional<Vector3d> up_W = level;
   // The vehicle on which the camera is mounted is upright at the first pose.
   if (asked.mount_rpy_rad) {
+    if (asked.camera_height_m) recorded.took.insert("mount");
     up_W = poses.front().T_WC.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
   }
   auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
   keep_within(motion->first_ns(), motion->last_ns(), outside, recorded);
+  leave_out_gaps(
+      times_ns, "poses", [&](std::size_t i) { return ways[i - 1] <= 1.5 * usual_way; }, recorded);
   recorded.motion = std::move(motion);
 }
 
@@ -340,22 +425,26 @@ void move_by_readings(const scenario::RecordingSource& asked, const fs::path& fi
   const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
   keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
               "pictures are outside of the IMU's time and are left out", recorded);
+  leave_out_gaps(
+      stamps_of(readings.imu), "IMU's readings", [](std::size_t) { return false; }, recorded);
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
   begin_at(start_ns, readings);
   sim::Calibration calibration;
-  const auto T_BC = asked.calibration ? camera_on_body(asked, {}) : std::nullopt;
+  const auto T_BC = asked.calibration ? camera_on_body(asked, {}, recorded) : std::nullopt;
   calibration.T_BC.R =
       T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
   if (T_BC && !asked.mount_rpy_rad) {
     calibration.T_BC.p = T_BC->p;
     calibration.T_WB_start.R =
-        sim::least_rotation(readings.imu.front().accel_mps2, Vector3d::UnitZ()).toRotationMatrix();
+        sim::least_rotation(beginning_of(readings.imu).up_S_mps2, Vector3d::UnitZ())
+            .toRotationMatrix();
   } else {
     require_vehicle_axes(readings.imu, file);
   }
+  calibrate_at_rest(asked, readings, calibration, recorded.tally);
+  recorded.took.insert({"at_rest", "mount"});
   calibration.v_WB_start_mps =
       asked.speed_mps.value_or(0) * (calibration.T_WB_start.R * calibration.T_BC.R.col(2)).eval();
-  calibrate_at_rest(asked, readings, calibration, recorded.tally);
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }
@@ -365,6 +454,7 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) 
     recorded.tally.tell("the noise of the IMU is not stated, and counts as none: imu_calibration");
   }
   if (!asked.imu_calibration) return;
+  recorded.took.insert("imu_calibration");
   const auto noise = read_calibration(*asked.imu_calibration).noise;
   if (!noise) {
     throw input::Error({asked.imu_calibration->string(), 0},
@@ -418,34 +508,36 @@ void set_format(const scenario::RecordingSource& asked, Recorded& recorded) {
 }
 
 Recorded read_recorded(const scenario::Scenario& scenario) {
-  const scenario::RecordingSource& asked = scenario.recording.value();
-  Recorded recorded =
-      layout_of(asked).read(asked, scenario.ego_motion == scenario::EgoMotionSource::truth);
+  const RecordingLayout& layout = layout_of(scenario.recording.value());
+  const scenario::RecordingSource asked = layout.name == "listed"
+                                              ? with_neutral_files(scenario.recording.value())
+                                              : scenario.recording.value();
+  const bool exact_motion = scenario.ego_motion == scenario::EgoMotionSource::truth;
+  Recorded recorded = layout.read(asked, exact_motion);
   recorded.settings.origin = origin_of(asked.path);
+  // Without a calibration the cameras of KITTI look as the mount says.
+  if (layout.name == "kitti" && !recorded.lens) recorded.took.insert("mount");
   const bool is_told = !recorded.lacks.empty();
   const bool times_known = set_times(asked, recorded);
   if (!times_known && !asked.poses) recorded.lacks.emplace_back(kNoTimes);
   set_motion(asked, times_known, is_told, recorded);
-  if (asked.time_offset_s && !recorded.took_time_offset) {
-    throw input::Error(asked.source,
-                       "time_offset has no effect: the motion of this recording has the clock of "
-                       "its pictures; remove it");
-  }
   if (!times_known && asked.poses && !recorded.motion && recorded.lacks.empty()) {
     recorded.lacks.emplace_back(kNoTimes);
   }
   set_lens(asked, recorded);
+  if (recorded.motion) require_ground_in_view(asked, recorded);
   if (!recorded.lacks.empty()) {
     throw input::Error(
         asked.source,
-        "{} does not say {}; give these keys of recording, or the options of lcs replay",
-        asked.path.string(), fmt::join(recorded.lacks, ", and "));
+        "{} does not say {}; give these keys of recording, or the options of lcs replay; {}",
+        asked.path.string(), fmt::join(recorded.lacks, ", and "), kNeutralWay);
   }
   choose(asked, scenario.frames, recorded.frames);
   if (recorded.frames.empty()) {
     throw input::Error(asked.source, "no picture is left; give a smaller every");
   }
   set_format(asked, recorded);
+  require_effects(asked, layout, exact_motion, recorded);
   return recorded;
 }
 

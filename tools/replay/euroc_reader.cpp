@@ -22,8 +22,6 @@ namespace {
 constexpr const char* kTruthFolder = "state_groundtruth_estimate0";
 constexpr const char* kMotionCapture = "mocap0";  // of TUM-VI
 constexpr double kGravity_mps2 = 9.81;
-// A recording without truth is assumed to be at rest for this time at its start.
-constexpr std::int64_t kStill_ns = 500'000'000;
 
 /// The folder that holds cam0: DIR/mav0, or DIR itself.
 fs::path mav_of(const fs::path& folder) {
@@ -62,31 +60,39 @@ struct Start {
   Vector3d accel_bias_mps2 = Vector3d::Zero();
 };
 
-/// A start at rest, upright according to the accelerometer, for the given or detected time at rest,
-/// or else for `kStill_ns`.
-Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
-                    std::optional<double> at_rest_s, Tally& tally) {
+/// A start upright according to the accelerometer: at rest for the given or detected time, else at
+/// the given speed along the optical axis.
+Start start_by_readings(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
+                        const Eigen::Matrix3d& R_BC, const scenario::RecordingSource& asked,
+                        Tally& tally) {
   const auto first = std::ranges::lower_bound(imu, t_ns, {}, &sim::ImuSample::t_ns);
-  if (const auto rest = rest_at_start({first, imu.end()}, at_rest_s, kGravity_mps2)) {
+  const double speed_mps = asked.speed_mps.value_or(0);
+  const auto rest = speed_mps != 0 && !asked.at_rest_s
+                        ? std::nullopt
+                        : rest_at_start({first, imu.end()}, asked.at_rest_s, kGravity_mps2);
+  if (rest) {
     tell_rest(*rest, tally);
-    return {t_ns, rest->R_WS, Vector3d::Zero(), rest->gyro_bias_radps, rest->accel_bias_mps2};
+    return {t_ns, rest->R_WS, speed_mps * (rest->R_WS * R_BC.col(2)), rest->gyro_bias_radps,
+            rest->accel_bias_mps2};
   }
-  Vector3d up = Vector3d::Zero(), turning = Vector3d::Zero();
-  int count = 0;
-  for (const sim::ImuSample& sample : imu) {
-    if (sample.t_ns < t_ns || sample.t_ns > t_ns + kStill_ns) continue;
-    up += sample.accel_mps2;
-    turning += sample.gyro_radps;
-    ++count;
-  }
-  if (count == 0)
+  if (first == imu.end()) {
     throw std::runtime_error(
         "the IMU has no reading at the first picture; give both the times of one clock");
-  tally.add("recordings have no truth to start from: at rest, upright as the accelerometer says",
-            fmt::format("{} readings", count));
-  return {.t_ns = t_ns,
-          .R_WS = sim::least_rotation(up, Vector3d::UnitZ()).normalized().toRotationMatrix(),
-          .gyro_bias_radps = turning / count};
+  }
+  const Beginning beginning = beginning_of({first, imu.end()});
+  const bool is_at_rest = speed_mps == 0 && beginning.is_still();
+  tally.add(is_at_rest
+                ? "recordings have no truth to start from: at rest, upright as the accelerometer "
+                  "says"
+                : "recordings start while they move: upright as the accelerometer says, and the "
+                  "gyroscope's bias counts as 0",
+            fmt::format("{} readings", beginning.count));
+  Start start{.t_ns = t_ns};
+  start.R_WS =
+      sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized().toRotationMatrix();
+  start.v_WS_mps = speed_mps * (start.R_WS * R_BC.col(2));
+  if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
+  return start;
 }
 
 Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
@@ -246,9 +252,11 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
     return;
   }
   const sim::Pose T_BC = *T_BC_known;
+  recorded.took.insert({"time_unit", "topics.imu"});
   take_time_offset(asked, recorded);
   const std::vector<TrueState> truth = read_truth(mav, asked, recorded.tally);
   if (exact_motion) {
+    recorded.took.insert("ego_motion: truth");
     if (truth.size() < 2) {
       throw std::runtime_error(fmt::format(
           "{} has no truth to tell the motion from; leave --ego-motion truth out", mav.string()));
@@ -274,14 +282,18 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
   keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
               "pictures are from before the truth or outside of the IMU's time", recorded);
+  leave_out_gaps(
+      stamps_of(readings.imu), "IMU's readings", [](std::size_t) { return false; }, recorded);
+  if (truth.empty()) recorded.took.insert("at_rest");
   const Start start = truth.empty()
-                          ? start_at_rest(readings.imu, first_ns, asked.at_rest_s, recorded.tally)
+                          ? start_by_readings(readings.imu, first_ns, T_BC.R, asked, recorded.tally)
                           : start_by_truth(truth, first_ns);
   if (!truth.empty()) require_gravity_down(start, readings.imu, imu_file);
   calibration.T_WB_start.R = start.R_WS;
   calibration.v_WB_start_mps = start.v_WS_mps;
   if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
     readings.odometry = read_odometry_csv(file, times, recorded.tally);
+    recorded.took.insert("topics.odometry");
     const sim::Pose T_BO = calibration_in(mav / "odometry0").T_BS.value_or(sim::Pose{});
     for (sim::OdometrySample& sample : readings.odometry) {
       sample.velocity_mps = T_BO.R * sample.velocity_mps;
@@ -334,7 +346,10 @@ Recorded read_euroc(const scenario::RecordingSource& asked, bool exact_motion) {
   if (exact) {
     require_same(mav, camera, *exact);
     recorded.settings = exact->scenario;
-    if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
+    if (exact_motion && !motion_is_asked(asked)) {
+      recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
+      recorded.took.insert("ego_motion: truth");
+    }
     recorded.lens = exact->lens;
     // The truth holds motions from each picture to the next.
     const bool is_first = camera == sequence::camera_name(0);
@@ -349,7 +364,7 @@ Recorded read_euroc(const scenario::RecordingSource& asked, bool exact_motion) {
   recorded.lens = sensor.lens;
   recorded.T_BC = sensor.T_BS;
   if (motion_is_asked(asked)) return recorded;
-  move_by_files(mav, camera_on_body(asked, sensor.T_BS), exact_motion, asked, recorded);
+  move_by_files(mav, camera_on_body(asked, sensor.T_BS, recorded), exact_motion, asked, recorded);
   return recorded;
 }
 

@@ -35,7 +35,9 @@ void begin_at(std::int64_t t_ns, SensorReadings& readings) {
 
 SensorMotion::SensorMotion(const scenario::Scenario& settings, const sim::Calibration& calibration,
                            SensorReadings readings)
-    : needs_poses_(settings.ego_motion == scenario::EgoMotionSource::truth),
+    : settings_(settings),
+      calibration_(calibration),
+      needs_poses_(settings.ego_motion == scenario::EgoMotionSource::truth),
       R_SC_(calibration.T_BS.R.transpose() * calibration.T_BC.R),
       readings_(std::move(readings)),
       feed_(settings, calibration) {}
@@ -66,6 +68,24 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
 
 std::optional<Vector3d> SensorMotion::up_C() const {
   return R_SC_.transpose() * feed_.estimator().R_WS().row(2).transpose();
+}
+
+std::vector<MotionSource::Reading> SensorMotion::other_readings() const {
+  SensorReadings reversed = readings_;
+  for (sim::ImuSample& sample : reversed.imu) sample.accel_mps2 *= -1;
+  sim::Calibration upside_down = calibration_, inverted = calibration_;
+  const Eigen::Matrix3d R_over = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  upside_down.T_WB_start.R = R_over * calibration_.T_WB_start.R;
+  upside_down.v_WB_start_mps = R_over * calibration_.v_WB_start_mps;
+  inverted.T_BC = calibration_.T_BC.inverse();
+  std::vector<Reading> all;
+  all.push_back({"its accelerations have the other sign, as those of iOS: change it",
+                 std::make_unique<SensorMotion>(settings_, upside_down, std::move(reversed))});
+  all.push_back(
+      {"the camera's pose on the IMU is inverted (T_cam_imu or T_imu_cam): give its "
+       "inverse",
+       std::make_unique<SensorMotion>(settings_, inverted, readings_)});
+  return all;
 }
 
 NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
@@ -123,6 +143,33 @@ EgoMotion NavigationMotion::at(std::int64_t t_ns) {
 std::optional<Vector3d> NavigationMotion::up_C() const {
   if (!last_) return std::nullopt;
   return (last_->q_WB.toRotationMatrix() * T_BC_.R).row(2);
+}
+
+std::vector<MotionSource::Reading> MotionSource::other_readings() const {
+  return {};
+}
+
+std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
+  std::vector<Reading> all;
+  const auto add = [&](const char* remedy, const auto& read) {
+    std::vector<CameraPose> poses = poses_;
+    for (CameraPose& pose : poses) pose.T_WC = read(pose.T_WC);
+    all.push_back({remedy, std::make_unique<PosesMotion>(std::move(poses), up_W_)});
+  };
+  const auto turned = [](const sim::Pose& T, double w, double x, double y, double z) {
+    return sim::Pose{Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(), T.p};
+  };
+  add("they are the world's poses in the camera: give their inverse",
+      [](const sim::Pose& T) { return T.inverse(); });
+  add("their quaternions have w first: give x, y, z, w, or a header", [&](const sim::Pose& T) {
+    const Eigen::Quaterniond q(T.R);
+    return turned(T, q.x(), q.y(), q.z(), q.w());
+  });
+  add("their quaternions have w last: give w, x, y, z, or a header", [&](const sim::Pose& T) {
+    const Eigen::Quaterniond q(T.R);
+    return turned(T, q.z(), q.w(), q.x(), q.y());
+  });
+  return all;
 }
 
 PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W)

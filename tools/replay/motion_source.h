@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "filter/ego_motion/estimator.h"
@@ -44,8 +46,17 @@ class MotionSource {
   /// The exact motion to the last frame; absent if unknown.
   virtual std::optional<EgoMotion> exact() const { return std::nullopt; }
 
+  /// The same data, read as others write them.
+  struct Reading;
+  virtual std::vector<Reading> other_readings() const;
+
   /// Counts of the faults in its readings so far.
   virtual Diagnostics diagnostics() const { return {}; }
+};
+
+struct MotionSource::Reading {
+  std::string remedy;  ///< what to change where this reading fits, as "they are ...: give ..."
+  std::unique_ptr<MotionSource> motion;
 };
 
 /// Constant velocity along the optical axis; the rotation is unknown.
@@ -86,9 +97,13 @@ class SensorMotion : public MotionSource {
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override;
   std::optional<EgoMotion> exact() const override { return exact_; }
+  /// With accelerations of the other sign, and the camera's pose on the IMU inverted.
+  std::vector<Reading> other_readings() const override;
   Diagnostics diagnostics() const override { return feed_.estimator().diagnostics(); }
 
  private:
+  scenario::Scenario settings_;
+  sim::Calibration calibration_;
   bool needs_poses_;
   Eigen::Matrix3d R_SC_;
   SensorReadings readings_;
@@ -136,6 +151,8 @@ class PosesMotion : public MotionSource {
   /// Before the first and after the last pose, that pose is held.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override;
+  /// As the world's poses in the camera, and by other orders of a quaternion's numbers.
+  std::vector<Reading> other_readings() const override;
 
   std::int64_t first_ns() const { return poses_.front().t_ns; }
   std::int64_t last_ns() const { return poses_.back().t_ns; }

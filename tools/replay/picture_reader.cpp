@@ -39,6 +39,16 @@ cv::Mat to_8_bits(const cv::Mat& picture, int bits) {
   return out;
 }
 
+/// The value that nearly no pixel exceeds: some are hot.
+unsigned brightest_of(const cv::Mat& picture) {
+  constexpr double kHot = 1e-4;  // share of the values
+  std::vector<std::uint16_t> values(picture.begin<std::uint16_t>(), picture.end<std::uint16_t>());
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto bright = values.begin() + static_cast<std::ptrdiff_t>((1 - kHot) * last);
+  std::ranges::nth_element(values, bright);
+  return *bright;
+}
+
 }  // namespace
 
 int demosaic_of(const std::string& pattern) {
@@ -103,7 +113,7 @@ PictureFormat common_format(const std::vector<fs::path>& files) {
   constexpr std::size_t kSample = 15;
   std::map<std::pair<int, int>, int> sizes;
   int most = 0;
-  PictureFormat format{.size_px = {}, .bits = 8, .demosaic = {}};
+  PictureFormat format{.size_px = {}, .bits = 8, .is_deep = false, .demosaic = {}};
   const std::size_t step = std::max<std::size_t>(1, files.size() / kSample);
   for (std::size_t i = 0; i < files.size(); i += step) {
     if (std::error_code error; !fs::exists(files[i], error)) continue;
@@ -115,9 +125,8 @@ PictureFormat common_format(const std::vector<fs::path>& files) {
         format.size_px = picture.size();
       }
       if (picture.depth() != CV_16U) continue;
-      double brightest = 0;
-      cv::minMaxLoc(picture.reshape(1), nullptr, &brightest);
-      const auto used = static_cast<int>(std::bit_width(static_cast<unsigned>(brightest)));
+      format.is_deep = true;
+      const int used = static_cast<int>(std::bit_width(brightest_of(picture.reshape(1))));
       format.bits = std::max(format.bits, used + used % 2);
     } catch (const input::Error&) {
       continue;  // told when its turn comes

@@ -68,7 +68,7 @@ fs::path list_in(const fs::path& folder) {
 /// The folder of the pictures beside such a list; "" if there is none.
 fs::path pictures_of_list(const fs::path& folder) {
   for (const char* name : {"images", "img", "undistorted_images/cam0", "distorted_images/cam0",
-                           "cam0", "frames", "rgb", "color", "."}) {
+                           "cam0", "frames", "rgb", "color", "pictures", "."}) {
     if (fs::is_directory(folder / name) && is_pictures(folder / name)) return folder / name;
   }
   return "";
@@ -120,6 +120,7 @@ Recorded read_listed(const scenario::RecordingSource& asked, bool) {
   Recorded recorded;
   take_unordered(pictures, recorded);
   if (!asked.times) time_by_table(list, asked.time_unit, recorded);
+  recorded.took.insert("time_unit");
   return recorded;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
@@ -19,6 +21,39 @@ double frames_per_second(const std::vector<RecordedFrame>& frames) {
   if (frames.size() < 2) return 1;
   const double span_s = static_cast<double>(frames.back().t_ns - frames.front().t_ns) * 1e-9;
   return static_cast<double>(frames.size() - 1) / span_s;
+}
+
+/// Refuses a fisheye's coefficients that are taken for a plain lens's: its tangential ones are
+/// large, or the radius falls again far inside the picture.
+void require_plain_lens(const Lens& lens, const cv::Size& size_px) {
+  constexpr double kStep = 0.01, kFarthest = 10, kInside = 0.7, kMostTangential = 0.02;
+  if (lens.distortion != Lens::Distortion::radial_tangential || lens.xi != 0) return;
+  const auto k = [&](std::size_t i) {
+    return i < lens.coefficients.size() ? lens.coefficients[i] : 0;
+  };
+  constexpr const char* kFisheye =
+      "if its coefficients are a fisheye's (k1 to k4), give distortion_model: equidistant, or the "
+      "option equidistant; else calibrate over the whole picture";
+  if (std::max(std::abs(k(2)), std::abs(k(3))) > kMostTangential) {
+    throw input::Error(lens.source,
+                       "the distortion's p1 and p2 are {} and {}, and those of a lens are near 0; "
+                       "{}",
+                       k(2), k(3), kFisheye);
+  }
+  const auto bent = [&](double r) {
+    const double r2 = r * r;
+    return r * (1 + r2 * (k(0) + r2 * (k(1) + r2 * k(4)))) /
+           (1 + r2 * (k(5) + r2 * (k(6) + r2 * k(7))));
+  };
+  const double corner = std::hypot(std::max(lens.cu_px, size_px.width - lens.cu_px) / lens.fu_px,
+                                   std::max(lens.cv_px, size_px.height - lens.cv_px) / lens.fv_px);
+  double farthest = 0;
+  for (double r = 0; r < kFarthest && bent(r) >= farthest; r += kStep) farthest = bent(r);
+  if (farthest >= kInside * corner) return;
+  throw input::Error(lens.source,
+                     "the radial distortion folds back at {:.0f} % of the way to the picture's "
+                     "corner; {}",
+                     100 * farthest / corner, kFisheye);
 }
 
 }  // namespace
@@ -131,6 +166,7 @@ void Playback::look_at_first_picture() {
     lens.cu_px = 0.5 * (size_px.width - 1);
     lens.cv_px = 0.5 * (size_px.height - 1);
   }
+  require_plain_lens(lens, size_px);
   rectifier_.emplace(lens, size_px);
 }
 
@@ -176,9 +212,18 @@ bool Playback::next(recording::FrameRecord& frame, cv::Mat3b& image) {
     const auto up_C = recorded_.motion->up_C();
     if (height_m && up_C) frame.motion.ground = Ground{.up_C = *up_C, .height_m = *height_m};
     grounded_ = frame.motion.ground.has_value();
+    motion_check_.add(image, *rectifier_, recorded.t_ns, frame.motion);
+    if (motion_check_.is_due()) require_right_motion();
     return true;
   }
+  require_right_motion();
   return false;
+}
+
+void Playback::require_right_motion() const {
+  const scenario::RecordingSource& asked = scenario_.recording.value();
+  const fs::path& file = asked.poses ? *asked.poses : asked.imu ? *asked.imu : asked.path;
+  motion_check_.require_right(*recorded_.motion, {file.string(), 0});
 }
 
 bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat& picture) const {
@@ -247,6 +292,7 @@ std::vector<std::string> Playback::remarks() const {
     lines.push_back(fmt::format("skipped: {} more", skipped.size() - kMostToldOneByOne));
   }
   for (const std::string& line : recorded_.tally.lines()) lines.push_back(line);
+  for (const std::string& line : motion_check_.remarks()) lines.push_back(line);
   if (untold_ > 0) {
     lines.push_back(
         fmt::format("{} of {} corners are none of those whose truth {} has, and count for nothing; "

@@ -13,6 +13,7 @@
 #include "scenarios/scenario.h"
 #include "sim/camera/rectifier.h"
 #include "tools/bench/bench.h"
+#include "tools/replay/motion_check.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -48,12 +49,14 @@ class Playback : public bench::FrameSource {
   void read_mask();
   void read_labels();
   void require_events() const;
+  void require_right_motion() const;
   void label_by_truth(const RecordedFrame& recorded, recording::FrameRecord& frame);
 
   scenario::Scenario scenario_;
   Recorded recorded_;
   PictureReader pictures_;
   std::optional<sim::Rectifier> rectifier_;
+  MotionCheck motion_check_;
   recording::Truth truth_;        ///< of corners
   int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth
   recording::Labels labels_;      ///< of moving objects, if present

@@ -64,6 +64,7 @@ except ImportError:
     HAS_ROSBAGS = False
 
 SECOND_NS = 10**9
+NEUTRAL = "turn it into the folder of tools/replay/NEUTRAL.md"
 TF = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 KINDS = {
     "image": ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"),
@@ -149,6 +150,16 @@ def stamp_of(header: Any) -> int:
     return header.stamp.sec * SECOND_NS + header.stamp.nanosec
 
 
+def require_ros2_profile(file: Path) -> None:
+    """Refuses an MCAP of ROS 1, protobuf or JSON: its header has a profile, with its length."""
+    head = file.open("rb").read(512) if file.suffix == ".mcap" and file.is_file() else b""
+    if head.startswith(b"\x89MCAP0\r\n\x01") and len(head) > 21:
+        profile = head[21 : 21 + int.from_bytes(head[17:21], "little")].decode(errors="replace")
+        if profile != "ros2":
+            raise Refusal(f"is a sound MCAP of the profile {profile!r}, and only ROS 2's (cdr) is read; "
+                          "give the .bag that it was made from, or " + NEUTRAL)  # fmt: skip
+
+
 class Bag:
     """The messages of a bag. `told` has a line on each that is left out, and on all assumptions."""
 
@@ -159,10 +170,14 @@ class Bag:
         if path.is_dir() and not (path / "metadata.yaml").exists():
             files = [file for file in path.iterdir() if file.suffix in (".db3", ".mcap")]
             parts = sorted(files, key=lambda file: (len(file.name), file.name)) or [path]
+        for part in parts:
+            require_ros2_profile(part)
         self._readers = [(Reader1 if self._is_ros1 else Reader2)(part) for part in parts]
         for reader in self._readers:
             reader.open()
         self._connections = [c for reader in self._readers for c in reader.connections]
+        if not self._connections and path.suffix == ".mcap":
+            raise Refusal("has no channels in its summary; 'mcap recover' writes a file with them")
         counts: dict[tuple[str, str], int] = {}
         for c in self._connections:
             counts[c.topic, c.msgtype] = counts.get((c.topic, c.msgtype), 0) + c.msgcount
@@ -361,6 +376,14 @@ def netpbm(message: Any) -> bytes:
     return f"{magic}\n{width} {height}\n{256**size - 1}\n".encode() + pixels.tobytes()
 
 
+def has_clock(stamps: list[int]) -> bool:
+    """Whether nearly all stamps in ns increase, and none falls back by more than ten periods."""
+    steps = np.diff(stamps)
+    if not len(steps):
+        return any(stamps)
+    return np.mean(steps <= 0) < 0.1 and min(steps) > -10 * np.median(steps)
+
+
 def write_picture(folder: Path, written: Series, message: Any) -> tuple[Path, str]:
     """Its file, whose name is a number until the clock is known, and its encoding."""
     is_raw = written.topic.type.endswith("/Image")
@@ -449,8 +472,12 @@ class Recording:
         places = [f"{name.rpartition('/')[0]}/camera_info" for name in names]  # ROS's convention
         infos = [topic for topic in found(bag, "camera-info") if topic.name in places]
         info = chosen(bag, "camera-info", asked.camera_info_topic, infos)
-        imu = chosen(bag, "imu", asked.imu_topic, [] if asked.poses_topic else found(bag, "imu"))
-        no_tf = [topic for topic in found(bag, "poses") if topic.type not in TF]
+        imus, no_tf = found(bag, "imu"), [t for t in found(bag, "poses") if t.type not in TF]
+        if asked.own_motion:
+            if imus and not asked.imu_topic:
+                bag.tell(f"the motion is yours, and the bag's IMU {names_of(imus)} is not read")
+            imus, no_tf = [], []
+        imu = chosen(bag, "imu", asked.imu_topic, [] if asked.poses_topic else imus)
         poses = chosen(bag, "poses", asked.poses_topic, [] if imu else no_tf)
         odometry = chosen(bag, "odometry", asked.odometry_topic, [])
         self.camera = self.out / "mav0" / "cam0"
@@ -491,15 +518,26 @@ class Recording:
             if not series.rows:
                 raise Refusal(f"no message of {series.topic.name} can be read ({why}); "
                               "give another topic")  # fmt: skip
+        if self.imu:
+            self._require_both_sensors(np.array(self.imu.rows))
+
+    def _require_both_sensors(self, rows: np.ndarray) -> None:
+        """Refuses an IMU whose gyroscope and accelerometer have a topic each."""
+        for part, name in ((rows[:, :3], "angular velocity"), (rows[:, 3:], "acceleration")):
+            others = [topic for topic in found(self.bag, "imu") if topic != self.imu.topic]
+            if others and not part.any():
+                raise Refusal(f"{self.imu.topic.name} has no {name}, which may be in {names_of(others)}; record "
+                              "both in one topic (realsense: unite_imu_method:=2), or " + NEUTRAL)  # fmt: skip
 
     def _takes_stamps(self, every: list[Series]) -> bool:
-        """Takes all times from the headers, or if some are of no use from the receiver's clock."""
-        bad = [series.topic for series in every if not any(series.stamps)]
-        if self.pictures.topic not in bad and any(np.diff(self.pictures.stamps) <= 0):
-            bad.append(self.pictures.topic)
+        """Takes all times from the headers, or if some are of no use from the receiver's clock.
+
+        Single stamps that repeat or are late do not matter: later readers sort them.
+        """
+        bad = [series.topic for series in every if not has_clock(series.stamps)]
         if bad:
-            self.bag.tell(f"the header stamps of {names_of(bad)} are all 0 or do not increase: "
-                          "all times are receive times")  # fmt: skip
+            self.bag.tell(f"the header stamps of {names_of(bad)} are all 0, mostly repeat or fall "
+                          "back: all times are receive times")  # fmt: skip
             for series in every:
                 series.times = series.received
         return not bad
@@ -517,7 +555,10 @@ class Recording:
             self.bag.tell(f"{self.pictures.frame!r} is taken as an optical frame: z looks ahead")
         names = {}
         for t_ns, (file, _) in zip(self.pictures.times, self.pictures.rows):
-            names[t_ns] = file.rename(file.with_stem(str(t_ns))).name
+            if t_ns not in names:
+                names[t_ns] = file.rename(file.with_stem(str(t_ns))).name
+        if doubles := len(self.pictures.rows) - len(names):
+            self.bag.tell(f"{doubles} pictures have the time of another one and are left out")
         rows = (f"{t_ns},{name}" for t_ns, name in names.items())
         write_lines(self.camera / "data.csv", ["#timestamp [ns],filename", *rows])
         T_SC = self._T_SX(frames, self.pictures.frame, "camera")
@@ -589,6 +630,7 @@ def arguments_of(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, help="new folder of the recording; else prints topics")
     for kind in KINDS:
         parser.add_argument(f"--{kind}-topic", metavar="T")
+    parser.add_argument("--own-motion", action="store_true", help="choose no IMU and no poses")
     parser.add_argument("--world-frame", metavar="F", help="frame of the poses; tf's need it")
     return parser.parse_args(words)
 

@@ -72,17 +72,18 @@ std::string RecordedFrame::name() const {
 
 const std::vector<RecordingLayout>& layouts() {
   static const std::vector<RecordingLayout> kLayouts{
-      {"euroc", "mav0/cam0, imu0 (EuRoC ASL; sequences of lcs generate)", is_euroc, read_euroc},
+      {"euroc", "mav0/cam0, imu0 (EuRoC ASL; sequences of lcs generate)", is_euroc, read_euroc,
+       true},
       {"kitti", "image_0X, oxts: a drive of KITTI raw; calibration in the folder above", is_kitti,
-       read_kitti},
+       read_kitti, true},
       {"kitti_odometry", "image_X, calib.txt, times.txt, poses.txt: a sequence of KITTI odometry",
-       is_kitti_odometry, read_kitti_odometry},
+       is_kitti_odometry, read_kitti_odometry, true},
       {"kitti_tracking", "image_02/NNNN, calib/NNNN.txt, oxts, label_02: of KITTI tracking",
-       is_kitti_tracking, read_kitti_tracking},
+       is_kitti_tracking, read_kitti_tracking, true},
       {"kitti_360", "data_2d_raw/DRIVE/image_00: a drive of KITTI-360", is_kitti_360,
-       read_kitti_360},
+       read_kitti_360, true},
       {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs focal", is_robotcar,
-       read_robotcar},
+       read_robotcar, true},
       {"tum_rgbd", "rgb.txt, groundtruth.txt (TUM RGB-D); needs focal", is_tum_rgbd, read_tum_rgbd},
       {"rpg_events", "events.txt, images.txt, calib.txt, groundtruth.txt (RPG's event camera)",
        is_rpg_events, read_rpg_events},
@@ -108,16 +109,17 @@ const RecordingLayout& layout_of(const scenario::RecordingSource& asked) {
   }
   throw input::Error(asked.source,
                      "{} holds no pictures, and is none of the other layouts that are known ({}); "
-                     "tools/replay/README.md says what each holds",
-                     asked.path.string(), names);
+                     "tools/replay/README.md says what each holds; {}",
+                     asked.path.string(), names, kNeutralWay);
 }
 
 bool motion_is_asked(const scenario::RecordingSource& asked) {
-  return asked.poses || asked.imu || asked.speed_mps;
+  return asked.poses || asked.imu || (asked.speed_mps && asked.topics.imu.empty());
 }
 
 void take_pictures(const fs::path& folder, const std::string& time_unit, Recorded& recorded) {
   OrderedPictures pictures = in_order(pictures_in(folder), time_unit);
+  if (!time_unit.empty()) recorded.took.insert("time_unit");
   recorded.timed = !pictures.t_ns.empty();
   recorded.frames.clear();
   for (std::size_t i = 0; i < pictures.files.size(); ++i) {
@@ -242,12 +244,41 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
   }
 }
 
+void leave_out_gaps(const std::vector<std::int64_t>& times_ns, const std::string& what,
+                    const std::function<bool(std::size_t)>& is_known, Recorded& recorded) {
+  constexpr double kPeriods = 4, kFrames = 2;
+  const auto periods_s = [](const std::vector<std::int64_t>& of, double count) {
+    return count / usual_rate_hz(of).value_or(1);
+  };
+  const double gap_s =
+      std::max(periods_s(times_ns, kPeriods), periods_s(stamps_of(recorded.frames), kFrames));
+  for (std::size_t i = 1; i < times_ns.size(); ++i) {
+    const std::int64_t from_ns = times_ns[i - 1], to_ns = times_ns[i];
+    const double silent_s = 1e-9 * static_cast<double>(to_ns - from_ns);
+    if (silent_s <= gap_s || is_known(i)) continue;
+    const auto left_out = std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
+      return frame.t_ns > from_ns && frame.t_ns < to_ns;
+    });
+    if (left_out == 0) continue;
+    recorded.tally.add("pictures are in gaps of the " + what + " and are left out",
+                       fmt::format("after {:.3f} s of silence from {} ns on", silent_s, from_ns),
+                       static_cast<int>(left_out));
+  }
+  if (recorded.frames.empty()) {
+    throw std::runtime_error(
+        fmt::format("all pictures are in gaps of the {}; give both the times of one clock", what));
+  }
+}
+
 void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
                         Recorded& recorded) {
   sort_by_time(states, "states of the navigation", "the navigation's", recorded.tally);
+  const std::vector<std::int64_t> times_ns = stamps_of(states);
   auto motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
   keep_within(motion->first_ns(), motion->last_ns(),
               "pictures are outside of the navigation's time and are left out", recorded);
+  leave_out_gaps(
+      times_ns, "states of the navigation", [](std::size_t) { return false; }, recorded);
   recorded.motion = std::move(motion);
 }
 

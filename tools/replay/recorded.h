@@ -14,6 +14,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,7 @@ namespace lcs::replay {
 struct PictureFormat {
   cv::Size size_px;             ///< empty: the first picture's size
   int bits = 16;                ///< in use where a picture has 16
+  bool is_deep = false;         ///< some picture has 16
   std::optional<int> demosaic;  ///< OpenCV's colour conversion of raw pictures, with one channel
 };
 
@@ -99,14 +101,21 @@ class Tally {
 /// two parts, and times of which nine tenths have the time of another. \throws input::Error
 void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string& source);
 
+/// Times of items with `t_ns`.
+template <class Timed>
+std::vector<std::int64_t> stamps_of(const std::vector<Timed>& items) {
+  std::vector<std::int64_t> times_ns;
+  for (const Timed& item : items) times_ns.push_back(item.t_ns);
+  return times_ns;
+}
+
 /// Sorts items by `t_ns`, and removes all but the first of those with the same time; counts both in
 /// `tally`. \param plural of the items, as "poses". \param source name of the table.
+/// \throws as `require_one_clock`.
 template <class Timed>
 void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& source,
                   Tally& tally) {
-  std::vector<std::int64_t> t_ns;
-  for (const Timed& item : items) t_ns.push_back(item.t_ns);
-  require_one_clock(t_ns, source);
+  require_one_clock(stamps_of(items), source);
   const auto earlier = [](const Timed& a, const Timed& b) { return a.t_ns < b.t_ns; };
   const auto same = [](const Timed& a, const Timed& b) { return a.t_ns == b.t_ns; };
   if (!std::ranges::is_sorted(items, earlier)) {
@@ -154,15 +163,15 @@ struct Recorded {
   /// At least one. If `timed` is false, they are in order and their times are unknown.
   std::vector<RecordedFrame> frames;
   PictureNumbers numbers;
-  bool timed = true;               ///< sorted by time, without duplicate times
-  bool has_own_clock = false;      ///< times count from the first picture: sensors begin with it
-  bool took_time_offset = false;   ///< `take_time_offset` was called
-  std::optional<double> fps;       ///< of an untimed recording, if the layout has it
-  std::vector<sim::Event> events;  ///< by time, with the clock of the layout
-  fs::path video;                  ///< contains the pictures; empty: they are files
-  std::optional<Lens> lens;        ///< absent: the layout has no calibration
-  std::optional<sim::Pose> T_BC;   ///< of the camera on the body, if the layout states it
-  PictureFormat format;            ///< of the files
+  bool timed = true;           ///< sorted by time, without duplicate times
+  bool has_own_clock = false;  ///< times count from the first picture: sensors begin with it
+  std::set<std::string, std::less<>> took = {};  ///< what was asked for and had an effect
+  std::optional<double> fps;                     ///< of an untimed recording, if the layout has it
+  std::vector<sim::Event> events;                ///< by time, with the clock of the layout
+  fs::path video;                                ///< contains the pictures; empty: they are files
+  std::optional<Lens> lens;                      ///< absent: the layout has no calibration
+  std::optional<sim::Pose> T_BC;  ///< of the camera on the body, if the layout states it
+  PictureFormat format;           ///< of the files
   /// Detection, filter, noise. Defaults apply where the recording has no setting, except that each
   /// picture determines the corner threshold.
   scenario::Scenario settings = [] {
@@ -179,6 +188,10 @@ struct Recorded {
   std::shared_ptr<void> keep = {};  ///< files that are read from, and removed with the recording
 };
 
+/// For recordings that no layout fits: ends the message that refuses one.
+inline constexpr const char* kNeutralWay =
+    "tools/replay/NEUTRAL.md has a folder that any recording can be turned into";
+
 /// Whether a path holds a recording of a layout.
 using Fits = bool(const fs::path& path);
 
@@ -193,6 +206,7 @@ struct RecordingLayout {
   std::string_view purpose;  ///< one readable line
   Fits* fits;
   Read* read;
+  bool has_cameras = false;  ///< it can have several, which `camera` tells apart
 };
 
 /// All layouts, in the order in which they are tried.
@@ -207,7 +221,11 @@ const RecordingLayout& layout_of(const scenario::RecordingSource& asked);
 /// \throws input::Error; one message lists all missing inputs.
 Recorded read_recorded(const scenario::Scenario& asked);
 
-/// Whether the user provides the camera's motion.
+/// Refuses what was asked for and has no effect. \throws input::Error
+void require_effects(const scenario::RecordingSource& asked, const RecordingLayout& layout,
+                     bool exact_motion, const Recorded& recorded);
+
+/// Whether the user provides the camera's motion. A speed beside a topic of an IMU is its start.
 bool motion_is_asked(const scenario::RecordingSource& asked);
 
 /// \name The readers.
@@ -220,10 +238,11 @@ Read read_euroc, read_kitti, read_kitti_odometry, read_robotcar, read_tum_rgbd, 
 
 /// The pose of the camera on the body or the IMU by a mount or a calibration of the user.
 std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
-                                        const std::optional<sim::Pose>& otherwise);
+                                        const std::optional<sim::Pose>& otherwise,
+                                        Recorded& recorded);
 
-/// Moves the frames' times to the IMU's clock, by `asked.time_offset_s` or else the
-/// `timeshift_cam_imu` of `asked.calibration`.
+/// Moves the frames' times to the IMU's clock, by `asked.time_offset_s` or else the offset that
+/// `asked.calibration` states.
 void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded);
 
 /// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
@@ -272,6 +291,13 @@ void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tall
 /// Removes frames outside a time span, and counts them.
 /// \throws std::runtime_error if none is left.
 void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what, Recorded& recorded);
+
+/// Removes frames in the gaps between the times of readings, and counts them. A gap is longer than
+/// four usual periods of the readings, and than two of the frames.
+/// \param what the readings are, as "poses". \param is_known whether the motion over the gap before
+///   a reading is known, by its index: where the camera stands.
+void leave_out_gaps(const std::vector<std::int64_t>& times_ns, const std::string& what,
+                    const std::function<bool(std::size_t)>& is_known, Recorded& recorded);
 
 /// Largest time of a picture after the last reading, which is held until then.
 inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;

@@ -108,6 +108,7 @@ Recorded read_robotcar(const scenario::RecordingSource& asked, bool) {
     recorded.lacks.push_back(
         fmt::format("where {} looks (mount, as 0, 0, 180 for backwards)", camera.name));
   }
+  recorded.took.insert("mount");
   const sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()))};
   move_by_navigation(read_ins(asked.path / "gps" / "ins.csv", recorded.tally), T_BC, recorded);
   return recorded;

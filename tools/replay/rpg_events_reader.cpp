@@ -101,6 +101,7 @@ Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_moti
     readings.imu = read_imu_csv(imu, in_seconds, recorded.tally, {4, 5, 6, 1, 2, 3});
     move_by_readings(asked, imu, std::move(readings), recorded);
   } else if (fs::exists(truth)) {
+    recorded.took.insert("ego_motion: truth");
     move_by_timed_poses(asked, truth, Vector3d::UnitZ(), recorded);
   }
   return recorded;

@@ -264,9 +264,43 @@ class Bags(unittest.TestCase):
             sent = [(T0 + 9 + i, t) for i, t in enumerate(stamps)]
             path = self.bag("db3", lambda m: [(m.image(t, at=at), m.imu(at)) for at, t in sent])
             out, _, told = self.converted(path)
-            self.assertIn("all 0 or do not increase", told)
+            self.assertIn("all 0, mostly repeat or fall back", told)
             rows = lines_of(out / "mav0/cam0/data.csv")[1:]
             self.assertEqual(rows, [f"{at},{at}.pgm" for at, _ in sent])
+
+    def test_one_stamp_that_repeats_leaves_the_others(self):
+        stamps = [T0 + i * 50_000_000 for i in (*range(20), 12)]
+        path = self.bag("bag", *(lambda m, t=t: m.image(t, at=t + 9) for t in stamps))
+        out, _, told = self.converted(path)
+        self.assertIn("1 pictures have the time of another one and are left out", told)
+        rows = lines_of(out / "mav0/cam0/data.csv")[1:]
+        self.assertEqual(rows, [f"{t},{t}.pgm" for t in stamps[:-1]])
+
+    def test_a_clock_that_falls_back_is_not_taken(self):
+        stamps = [T0 + i * 50_000_000 for i in (*range(20), *range(5, 25))]
+        sent = [(T0 + i * 50_000_000, t) for i, t in enumerate(stamps)]
+        path = self.bag("bag", *(lambda m, s=s: m.image(s[1], at=s[0]) for s in sent))
+        self.assertIn("fall back", self.converted(path)[2])
+
+    def test_an_imu_in_two_topics_is_refused(self):
+        def fill(m):
+            for i in range(9):
+                m.image(T0 + i)
+                m.imu(T0 + i, (0.1, 0, 0, 0, 0, 0), topic="/gyro")
+                m.imu(T0 + i, (0, 0, 0, 0, 0, 9.8), topic="/accel")
+
+        path = self.bag("bag", fill)
+        self.refused("/gyro has no acceleration, which may be in /accel", path, "--imu-topic", "/gyro")
+        self.refused("/accel has no angular velocity", path, "--imu-topic", "/accel")
+        told = self.converted(path, "--own-motion")[2]
+        self.assertIn("the bag's IMU /accel /gyro is not read", told)
+
+    def test_an_mcap_of_another_profile_is_refused_by_its_name(self):
+        for profile in (b"ros1", b""):
+            file = self.folder / "other.mcap"
+            file.write_bytes(b"\x89MCAP0\r\n\x01" + bytes(8) + len(profile).to_bytes(4, "little")
+                             + profile + bytes(64))  # fmt: skip
+            self.refused(f"a sound MCAP of the profile {profile.decode()!r}", file)
 
     def test_calibrations(self):
         for model, says, topic, info in (

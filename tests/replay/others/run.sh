@@ -21,6 +21,7 @@ if ! "$LCS_PYTHON" -m pip install --quiet --retries 1 --timeout 30 rosbags==0.11
   fail "$(cat "$work/pip.log")"
 fi
 "$LCS_PYTHON" "$here/bag_test.py"
+"$LCS_PYTHON" "$here/neutral_test.py"
 "$LCS_PYTHON" "$here/replay_test.py" "$lcs" "$work"
 "$LCS_PYTHON" "$here/mcap_test.py" "$lcs" "$work"
 "$LCS_PYTHON" "$here/video_test.py" "$lcs" "$work"

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Turns a recording into the folder of NEUTRAL.md; change it where yours differs.
+
+to_neutral.py OUT --pictures DIR --times FILE --camera W H FX FY CX CY [--poses FILE | --imu FILE]
+
+Columns of tables are counted from 0; rows without a number as their time are skipped.
+"""
+
+import argparse
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+
+UNITS_NS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
+SIDES = {"right": (1, 0, 0), "down": (0, 1, 0), "ahead": (0, 0, 1),
+         "left": (-1, 0, 0), "up": (0, -1, 0), "back": (0, 0, -1)}  # fmt: skip
+IMU = ("#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+       "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]")  # fmt: skip
+RATES, FORCES = {"rad/s": 1, "deg/s": np.pi / 180}, {"m/s^2": 1, "g": 9.80665, "-g": -9.80665}
+
+
+def rows_of(file, columns, unit):
+    """Times in ns, without rounding through a float, and the other columns as numbers."""
+    for line in file.read_text().splitlines():
+        fields = re.split(r"[,;\s]+", line.strip())
+        if len(fields) > max(columns) and re.match(r"[-+.\d]", fields[columns[0]]):
+            whole, _, part = fields[columns[0]].partition(".")
+            if not (whole + part).lstrip("-+").isdigit():
+                raise SystemExit(f"{file}: the time {fields[columns[0]]} is rounded; give all digits")
+            digits = len(str(unit)) - 1  # of the fraction, down to 1 ns
+            t_ns = int(whole) * unit + int((part + "0" * digits)[:digits] or 0)
+            yield t_ns, np.array([float(fields[c]) for c in columns[1:]])
+
+
+def rotation(x, y, z, w):
+    x, y, z, w = np.array([x, y, z, w]) / np.linalg.norm([x, y, z, w])
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])  # fmt: skip
+
+
+def quaternion(R):
+    """x y z w, whose outer product with itself is linear in R."""
+    K = np.zeros((4, 4))
+    K[:3, :3] = R + R.T - np.trace(R) * np.eye(3)
+    K[3, :3] = K[:3, 3] = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
+    K[3, 3] = np.trace(R)
+    return np.linalg.eigh(K)[1][:, 3]
+
+
+def write(file, header, rows):
+    file.write_text("\n".join([header, *(",".join(map(str, row)) for row in rows)]) + "\n")
+
+
+def main():
+    parse = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parse.add_argument("out", type=Path)
+    for name in ("pictures", "times", "poses", "imu"):
+        parse.add_argument(f"--{name}", type=Path)
+    for name, columns in (("times", [0]), ("poses", range(8)), ("imu", range(7))):
+        parse.add_argument(f"--{name}-columns", type=int, nargs="+", default=list(columns),
+                           help="time; x y z qx qy qz qw; rates, accelerations")  # fmt: skip
+        parse.add_argument(f"--{name}-unit", choices=UNITS_NS, default="s", help="of its times")
+    parse.add_argument("--axes", nargs=3, choices=SIDES, default=["right", "down", "ahead"],
+                       help="where x, y and z of the poses' camera point")  # fmt: skip
+    parse.add_argument("--inverse", action="store_true", help="poses of the world in the camera")
+    parse.add_argument("--rates", choices=RATES, default="rad/s")
+    parse.add_argument("--forces", choices=FORCES, default="m/s^2", help="-g: as iOS has them")
+    parse.add_argument("--camera", type=float, nargs=6, metavar="W H FX FY CX CY".split())
+    parse.add_argument("--camera-on-imu", type=float, nargs=16, help="T_BS, row by row")
+    asked = parse.parse_args()
+    (asked.out / "pictures").mkdir(parents=True)
+    pictures = sorted(asked.pictures.iterdir(), key=lambda p: list(map(int, re.findall(r"\d+", p.name))))
+    times = list(rows_of(asked.times, asked.times_columns, UNITS_NS[asked.times_unit]))
+    if len(pictures) != len(times):
+        raise SystemExit(f"{len(pictures)} pictures and {len(times)} times: give one for each")
+    names = [f"{k:06}{picture.suffix}" for k, picture in enumerate(pictures)]
+    for picture, name in zip(pictures, names):
+        shutil.copy(picture, asked.out / "pictures" / name)
+    write(asked.out / "times.csv", "time_ns,picture", ((t, n) for (t, _), n in zip(times, names)))
+    if asked.poses:
+        P = np.array([SIDES[side] for side in asked.axes]).T  # from these axes to right, down, ahead
+        poses, unit = [], UNITS_NS[asked.poses_unit]
+        for t_ns, (x, y, z, *q) in rows_of(asked.poses, asked.poses_columns, unit):
+            R, p = rotation(*q), np.array([x, y, z])
+            R, p = (R.T, -R.T @ p) if asked.inverse else (R, p)
+            mirror = np.diag([1, np.linalg.det(P), 1])
+            poses.append([t_ns, *(mirror @ p), *quaternion(mirror @ R @ P.T)])
+        write(asked.out / "poses.csv", "time_ns,x,y,z,qx,qy,qz,qw", poses)
+    if asked.imu:
+        scale = np.repeat([RATES[asked.rates], FORCES[asked.forces]], 3)
+        rows = rows_of(asked.imu, asked.imu_columns, UNITS_NS[asked.imu_unit])
+        write(asked.out / "imu.csv", IMU, ([t, *(scale * row)] for t, row in rows))
+    width, height, *lens = asked.camera
+    yaml = (f"camera_model: pinhole\nresolution: [{width:.0f}, {height:.0f}]\n"
+            f"intrinsics: {lens}\ndistortion_model: none\n")  # fmt: skip
+    if asked.camera_on_imu:
+        yaml += f"T_BS: {np.reshape(asked.camera_on_imu, (4, 4)).tolist()}\n"
+    (asked.out / "calibration.yaml").write_text(yaml)
+
+
+if __name__ == "__main__":
+    main()
