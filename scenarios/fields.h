@@ -41,6 +41,10 @@ struct Key {
 inline constexpr int kMostFrames = 1'000'000;
 inline constexpr std::size_t kMostCameras = 8;  // each has a GL context
 
+/// The type of a member that is one of several words.
+template <class T>
+concept Enumeration = std::is_enum_v<T>;
+
 /// \name Forms of values
 ///@{
 struct Plain {};  ///< the member's type determines the accepted values
@@ -85,8 +89,7 @@ struct FramesBefore {  ///< a duration, converted to the number of frames before
 
 // --- the rover
 
-template <class Visit>
-void motion_fields(EgoPhase& phase, std::string_view without, Visit&& visit) {
+void motion_fields(EgoPhase& phase, std::string_view without, auto&& visit) {
   visit({"speed", "at the start", without}, phase.speed_mps, kSpeed);
   visit({"acceleration", "along the direction of travel; a speed that falls to 0 stays 0", without},
         phase.acceleration_mps2, kAcceleration);
@@ -96,15 +99,13 @@ void motion_fields(EgoPhase& phase, std::string_view without, Visit&& visit) {
   visit({"yaw_rate", "of the heading", without}, phase.yaw_rate_radps, kAngularRate);
 }
 
-template <class Visit>
-void fields(EgoPhase& phase, Visit&& visit) {
+void fields(EgoPhase& phase, auto&& visit) {
   [[maybe_unused]] auto& [at_s, speed, acceleration, direction, yaw_rate] = phase;
   visit({"at", "the phase begins; times increase", kRequired}, at_s, kTime);
   motion_fields(phase, "as before", visit);
 }
 
-template <class Visit>
-void fields(Ego& ego, Visit&& visit) {
+void fields(Ego& ego, auto&& visit) {
   auto& [source, drive, drive_file, start_m, heading_rad, phases, waypoints, path] = ego;
   if (phases.empty()) phases.emplace_back();
   visit({"drive",
@@ -141,16 +142,14 @@ void fields(Ego& ego, Visit&& visit) {
 inline constexpr std::string_view kDistortionKey =
     "`[k1, k2, p1, p2, k3]`, or `{equidistant: [k1, k2, k3, k4]}`, as OpenCV has them";
 
-template <class Visit>
-void fields(Camera::Told& told, Visit&& visit) {
+void fields(Camera::Told& told, auto&& visit) {
   auto& [height_error_m, pitch_error_rad, time_offset_error_s] = told;
   visit({"height_error", "added to the camera's true height"}, height_error_m, kPosition);
   visit({"pitch_error", "added to its true pitch"}, pitch_error_rad, kAngle);
   visit({"time_offset_error", "added to its true `time_offset`"}, time_offset_error_s, kTimeOffset);
 }
 
-template <class Visit>
-void fields(Camera& camera, Visit&& visit) {
+void fields(Camera& camera, auto&& visit) {
   auto& [source, width_px, height_px, fovy_rad, focal_px, centre_px, distortion, rate_hz,
          position_m, rotation_rad, told, time_offset_s, rolling_shutter_s, exposure_s, groups] =
       camera;
@@ -208,8 +207,7 @@ void fields(Camera& camera, Visit&& visit) {
   visit({"groups", "of geoms that are drawn: MuJoCo's `group`, 0 to 5"}, groups, GroupList{});
 }
 
-template <class Visit>
-void fields(Gyroscopes& gyroscopes, Visit&& visit) {
+void fields(Gyroscopes& gyroscopes, auto&& visit) {
   auto& [M, C_gyro_i, A, range_radps, resolution_radps] = gyroscopes;
   visit({"M", "Kalibr's matrix of scales and misalignments, three rows: lower triangular"}, M,
         kCoefficient);
@@ -222,8 +220,7 @@ void fields(Gyroscopes& gyroscopes, Visit&& visit) {
   visit({"resolution", "readings are multiples of it", "unlimited"}, resolution_radps, kImuRate);
 }
 
-template <class Visit>
-void fields(Accelerometers& accelerometers, Visit&& visit) {
+void fields(Accelerometers& accelerometers, auto&& visit) {
   auto& [M, range_mps2, resolution_mps2] = accelerometers;
   visit({"M", "as `M` of the gyroscopes"}, M, kCoefficient);
   visit({"range", "largest reading of an axis, of either sign: 16 g is 156.9", "unlimited"},
@@ -232,8 +229,7 @@ void fields(Accelerometers& accelerometers, Visit&& visit) {
         kImuAcceleration);
 }
 
-template <class Visit>
-void fields(Imu& imu, Visit&& visit) {
+void fields(Imu& imu, auto&& visit) {
   auto& [preset, noise, gyroscopes, accelerometers, position_m, rpy_rad, reading, rate_hz, gaps] =
       imu;
   auto& [gyroscope_density, gyroscope_walk, accelerometer_density, accelerometer_walk,
@@ -276,8 +272,7 @@ void fields(Imu& imu, Visit&& visit) {
   visit({"rate", "samples a second"}, rate_hz, kSensorRate);
 }
 
-template <class Visit>
-void fields(Odometry& odometry, Visit&& visit) {
+void fields(Odometry& odometry, auto&& visit) {
   auto& [enabled, rate_hz, noise_mps, yaw_noise_radps, scale_error] = odometry;
   visit({"rate", "samples a second"}, rate_hz, kSensorRate);
   visit({"noise", "white, in each sample of x and y"}, noise_mps, kSpeed);
@@ -286,8 +281,7 @@ void fields(Odometry& odometry, Visit&& visit) {
   visit({"scale_error", "standard deviation of a factor drawn once a run"}, scale_error, kRatio);
 }
 
-template <class Visit>
-void fields(Events& events, Visit&& visit) {
+void fields(Events& events, auto&& visit) {
   auto& [source, positive, negative, spread, refractory_s, leak_hz, shot_hz, dark_lx] = events;
   visit({"positive", "mean contrast, of the natural logarithm of light, that gives an ON event"},
         positive, kContrast);
@@ -304,15 +298,13 @@ void fields(Events& events, Visit&& visit) {
 
 // --- light, weather and the ground
 
-template <class Visit>
-void fields(Image::Headlights& headlights, Visit&& visit) {
+void fields(Image::Headlights& headlights, auto&& visit) {
   auto& [intensity_cd, beam_rad] = headlights;
   visit({"intensity", "on the optical axis", kRequired}, intensity_cd, kIntensity);
   visit({"beam", "standard deviation of the beam round the axis"}, beam_rad, kBeam);
 }
 
-template <class Visit>
-void fields(Image::Rain& rain, Visit&& visit) {
+void fields(Image::Rain& rain, auto&& visit) {
   auto& [rate_mmph, lens_drops, drop_life_s] = rain;
   visit({"rate", "mm/h that fall, as streaks"}, rate_mmph, kRainRate);
   visit({"lens_drops", "drops on the window before the lens at any time"}, lens_drops,
@@ -320,8 +312,7 @@ void fields(Image::Rain& rain, Visit&& visit) {
   visit({"drop_life", "mean time until a drop is replaced"}, drop_life_s, kDropLife);
 }
 
-template <class Visit>
-void fields(Image::AutoExposure& control, Visit&& visit) {
+void fields(Image::AutoExposure& control, auto&& visit) {
   auto& [target, time_constant_s, exposure_s, gain] = control;
   visit({"target", "mean of the picture in linear light, in which 1 is a full pixel"}, target,
         kShare);
@@ -334,16 +325,14 @@ void fields(Image::AutoExposure& control, Visit&& visit) {
   visit({"gain", "`[least, most]` of `image.gain`"}, gain, kGain);
 }
 
-template <class Visit>
-void fields(Image::Noise& noise, Visit&& visit) {
+void fields(Image::Noise& noise, auto&& visit) {
   auto& [full_well_e, read_e] = noise;
   visit({"full_well", "electrons of a full pixel; shot noise follows from them"}, full_well_e,
         kFullWell);
   visit({"read", "electrons that reading adds (standard deviation)"}, read_e, kElectrons);
 }
 
-template <class Visit>
-void fields(Image& image, Visit&& visit) {
+void fields(Image& image, auto&& visit) {
   auto& [light_lx, shadows, headlights, visibility_m, rain, samples, point_spread_px, blur_px,
          vignetting, exposure_s, gain, auto_exposure, noise, jpeg_quality] = image;
   visit({"light", "on the scene: 10 klx is an overcast day, 100 lx dusk, 0.5 lx night"}, light_lx,
@@ -388,8 +377,7 @@ void fields(Image& image, Visit&& visit) {
         jpeg_quality, Whole{1, 100});
 }
 
-template <class Visit>
-void fields(RoughGround& ground, Visit&& visit) {
+void fields(RoughGround& ground, auto&& visit) {
   auto& [roughness_m, wavelength_m, centre_m, size_m] = ground;
   visit({"roughness",
          "standard deviation of the height; the ground rises to four of them above the floor"},
@@ -402,16 +390,14 @@ void fields(RoughGround& ground, Visit&& visit) {
 
 // --- actors
 
-template <class Visit>
-void fields(Still& still, Visit&& visit) {
+void fields(Still& still, auto&& visit) {
   auto& [position_m, heading_rad] = still;
   visit({"position", "[x, y]", "the body's; required of a shape"}, position_m, kPosition);
   visit({"heading", "the direction that the actor faces", "the body's; 0 deg of a shape"},
         heading_rad, kAngle);
 }
 
-template <class Visit>
-void fields(Line& line, Visit&& visit) {
+void fields(Line& line, auto&& visit) {
   auto& [from_m, heading_rad, speed_mps, acceleration_mps2] = line;
   visit({"from", "[x, y]", "the body's place; required of a shape"}, from_m, kPosition);
   visit({"heading", "the direction that the actor moves in", "the body's; required of a shape"},
@@ -420,8 +406,7 @@ void fields(Line& line, Visit&& visit) {
   visit({"acceleration", "a speed that falls to 0 stays 0"}, acceleration_mps2, kAcceleration);
 }
 
-template <class Visit>
-void fields(Circular& circle, Visit&& visit) {
+void fields(Circular& circle, auto&& visit) {
   auto& [centre_m, radius_m, start_angle_rad, speed_mps] = circle;
   visit({"centre", "[x, y]", kRequired}, centre_m, kPosition);
   visit({"radius", "of the circle", kRequired}, radius_m, kDistance);
@@ -436,8 +421,7 @@ std::optional<T> alternative(const Trajectory& trajectory) {
   return held ? std::optional(*held) : std::nullopt;
 }
 
-template <class Visit>
-void fields(Trajectory& trajectory, Visit&& visit) {
+void fields(Trajectory& trajectory, auto&& visit) {
   auto still = alternative<Still>(trajectory);
   auto line = alternative<Line>(trajectory);
   auto waypoints = alternative<Waypoints>(trajectory);
@@ -458,8 +442,7 @@ void fields(Trajectory& trajectory, Visit&& visit) {
   if (circle) trajectory = *circle;
 }
 
-template <class Visit>
-void fields(StartTrigger& start, Visit&& visit) {
+void fields(StartTrigger& start, auto&& visit) {
   auto& [at_s, ego_within_m] = start;
   visit({"time", "the actor starts not before this time"}, at_s, kTime);
   visit({"ego_within", "nor before the ego is as near as this, from origin to origin in the plane",
@@ -467,8 +450,7 @@ void fields(StartTrigger& start, Visit&& visit) {
         ego_within_m, kDistance);
 }
 
-template <class Visit>
-void fields(Actor& actor, Visit&& visit) {
+void fields(Actor& actor, auto&& visit) {
   auto& [name, source, body, shape, shape_file, size_m, texture, pose, kind, trajectory, start] =
       actor;
   std::optional<Shape> added;
@@ -510,8 +492,7 @@ inline constexpr std::array<const char*, 3> kSplits{"train", "validate", "test"}
 
 // --- recorded frames
 
-template <class Visit>
-void fields(RecordingSource::Topics& topics, Visit&& visit) {
+void fields(RecordingSource::Topics& topics, auto&& visit) {
   auto& [image, camera_info, imu, poses, odometry, world] = topics;
   constexpr const char* kOnly = "the only one of its kind";
   visit({"image", "of `sensor_msgs/Image` or `CompressedImage`",
@@ -528,8 +509,7 @@ void fields(RecordingSource::Topics& topics, Visit&& visit) {
   visit({"world", "frame of poses that come from tf, as `map`", "none"}, world);
 }
 
-template <class Visit>
-void fields(RecordingSource& recorded, Visit&& visit) {
+void fields(RecordingSource& recorded, auto&& visit) {
   auto& [source, path, format, camera, topics, fps, times, time_unit, every, poses, imu, odometry,
          speed_mps, time_offset_s, calibration, imu_calibration, focal_px, centre_px, distortion,
          bayer, bits, camera_height_m, mount_rpy_rad, mask, at_rest_s, labels, labels_video,
@@ -629,8 +609,7 @@ void fields(RecordingSource& recorded, Visit&& visit) {
 
 // --- the whole
 
-template <class Visit>
-void fields(Origin& origin, Visit&& visit) {
+void fields(Origin& origin, auto&& visit) {
   auto& [source, family, seed, again, features] = origin;
   visit({"family", "of worlds, as `room`", kRequired}, family);
   visit({"seed", "that the world was drawn from; `seed` of the scenario may be another", kRequired},
@@ -640,8 +619,7 @@ void fields(Origin& origin, Visit&& visit) {
   visit({"features", "that occur in it", "none"}, features);
 }
 
-template <class Visit>
-void fields(Criterion& criterion, Visit&& visit) {
+void fields(Criterion& criterion, auto&& visit) {
   auto& [metric, min, max, required, source, detector, over] = criterion;
   visit({"metric", "a key of `metrics.json`", kRequired}, metric);
   visit({"min", "least value; `min`, `max` or both are given", "none"}, min, kBound);
@@ -660,8 +638,7 @@ struct CornerKeys {
   std::optional<int> threshold = kFastThreshold;
 };
 
-template <class Visit>
-void fields(CornerKeys& corners, Visit&& visit) {
+void fields(CornerKeys& corners, auto&& visit) {
   auto& [from, threshold] = corners;
   visit({"from",
          "`pictures`: FAST; `events`: Arc* (`filter/detect/event_corners.h`), on the events since "
@@ -683,8 +660,7 @@ struct TruthKeys {
   double min_depth_m = default_scenario().truth_min_depth_m;
 };
 
-template <class Visit>
-void fields(TruthKeys& truth, Visit&& visit) {
+void fields(TruthKeys& truth, auto&& visit) {
   auto& [min_depth_m] = truth;
   visit({"min_depth",
          "nearest depth that a static corner may have, when the truth decides whether a motion is "
@@ -692,8 +668,7 @@ void fields(TruthKeys& truth, Visit&& visit) {
         min_depth_m, kDistance);
 }
 
-template <class Visit>
-void fields(Scenario& scenario, Visit&& visit) {
+void fields(Scenario& scenario, auto&& visit) {
   auto& [name, file, purpose, groups, recording, scene, scene_source, origin, seed, frames, ego,
          camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, events,
          corner_source, fast_threshold, truth_min_depth_m, image, ground, actors, filter_preset,

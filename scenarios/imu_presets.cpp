@@ -7,21 +7,13 @@
 namespace lcs::scenario {
 namespace {
 
-constexpr std::array presets = {
-    std::pair{std::string_view("adis16448"), ImuNoise{.gyroscope_noise_density = 1.6968e-4,
-                                                      .gyroscope_random_walk = 1.9393e-5,
-                                                      .accelerometer_noise_density = 2.0e-3,
-                                                      .accelerometer_random_walk = 3.0e-3}},
-    std::pair{std::string_view("tumvi"), ImuNoise{.gyroscope_noise_density = 1.6e-4,
-                                                  .gyroscope_random_walk = 2.2e-5,
-                                                  .accelerometer_noise_density = 2.8e-3,
-                                                  .accelerometer_random_walk = 8.6e-4}},
-    std::pair{std::string_view("esim"), ImuNoise{.gyroscope_noise_density = 1.86e-4,
-                                                 .gyroscope_random_walk = 2.66e-5,
-                                                 .accelerometer_noise_density = 1.86e-3,
-                                                 .accelerometer_random_walk = 4.33e-4}},
-    std::pair{std::string_view("ideal"), ImuNoise{}},
-};
+/// Noise density and random walk of the gyroscope, then of the accelerometer.
+constexpr std::array<std::pair<std::string_view, ImuNoise>, 4> presets{{
+    {"adis16448", {1.6968e-4, 1.9393e-5, 2.0e-3, 3.0e-3}},
+    {"tumvi", {1.6e-4, 2.2e-5, 2.8e-3, 8.6e-4}},
+    {"esim", {1.86e-4, 2.66e-5, 1.86e-3, 4.33e-4}},
+    {"ideal", {}},
+}};
 
 }  // namespace
 

@@ -47,8 +47,7 @@ Kind kind_of(const input::Quantity& quantity, double) {
           {{"anyOf", {number, {{"type", "string"}, {"pattern", pattern}}}}}};
 }
 
-template <std::integral T>
-Kind kind_of(const Whole& form, T) {
+Kind kind_of(const Whole& form, std::integral auto) {
   return {fmt::format("{} to {}", form.low, form.high),
           {{"type", "integer"}, {"minimum", form.low}, {"maximum", form.high}}};
 }
@@ -61,8 +60,7 @@ Kind kind_of(Plain, bool) {
   return {"false or true", {{"type", "boolean"}}};
 }
 
-template <class Form>
-Kind kind_of(const Form&, const std::string&) {
+Kind kind_of(const auto&, const std::string&) {
   return {"a text", {{"type", "string"}, {"minLength", 1}}};
 }
 
@@ -70,20 +68,17 @@ Kind kind_of(const Words& form, const std::string&) {
   return {fmt::format("{}", fmt::join(form.words, ", ")), {{"enum", form.words}}};
 }
 
-template <class Enum>
-requires std::is_enum_v<Enum> Kind kind_of(const Words& form, Enum) {
+Kind kind_of(const Words& form, Enumeration auto) {
   return kind_of(form, std::string());
 }
 
-template <class Enum>
-requires std::is_enum_v<Enum> Kind kind_of(const OwnFileOr& form, Enum) {
+Kind kind_of(const OwnFileOr& form, Enumeration auto) {
   const Kind words = kind_of(Words{form.words}, std::string());
   return {fmt::format("{}, a path", words.takes),
           {{"anyOf", {words.schema, {{"type", "string"}, {"pattern", "[.]xml$"}}}}}};
 }
 
-template <class Form>
-Kind kind_of(const Form&, const std::filesystem::path&) {
+Kind kind_of(const auto&, const std::filesystem::path&) {
   return {"must exist", {{"type", "string"}, {"minLength", 1}}};
 }
 
@@ -106,8 +101,7 @@ Kind kind_of(const input::Quantity& quantity, const Eigen::Matrix3d&) {
   return array_of(kind_of(quantity, Eigen::Vector3d()), 3, 3);
 }
 
-template <HasFields T>
-Kind kind_of(Plain, const T& object);
+Kind kind_of(Plain, const HasFields auto& object);
 
 /// The rows with the name of their place in a list, for example "phases.N.at".
 std::vector<Row> rows_in(const std::vector<Row>& rows, std::string_view place) {
@@ -135,17 +129,13 @@ Kind kind_of(Plain, const Distortion&) {
           {{"anyOf", {array_of(number, 5, 5).schema, fisheye}}}};
 }
 
-Kind kind_of(Plain, const Waypoint&) {
-  const Json place = kind_of(kPosition, 0.0).schema;
-  const Json items = Json::array({kind_of(kTime, 0.0).schema, place, place});
-  return {"", {{"type", "array"}, {"items", items}, {"minItems", 3}, {"maxItems", 3}}};
-}
-
-Kind kind_of(Plain, const PathPose&) {
-  const Json place = kind_of(kPosition, 0.0).schema, angle = kind_of(kAngle, 0.0).schema;
-  const Json items =
-      Json::array({kind_of(kTime, 0.0).schema, place, place, place, angle, angle, angle});
-  return {"", {{"type", "array"}, {"items", items}, {"minItems", 7}, {"maxItems", 7}}};
+/// Two or more lists, each of one number of each of these quantities.
+Kind path_of(const std::vector<input::Quantity>& quantities) {
+  Json items = Json::array();
+  for (const input::Quantity& quantity : quantities) items.push_back(kind_of(quantity, 0.0).schema);
+  const std::size_t count = items.size();
+  const Json point{{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
+  return {"a list", array_of({"", point}, 2).schema};
 }
 
 Kind kind_of(Plain, const TimeSpan&) {
@@ -153,11 +143,11 @@ Kind kind_of(Plain, const TimeSpan&) {
 }
 
 Kind kind_of(Plain, const std::vector<Waypoint>&) {
-  return {"a list", array_of(kind_of(Plain{}, Waypoint{}), 2).schema};
+  return path_of({kTime, kPosition, kPosition});
 }
 
 Kind kind_of(Plain, const std::vector<PathPose>&) {
-  return {"a list", array_of(kind_of(Plain{}, PathPose{}), 2).schema};
+  return path_of({kTime, kPosition, kPosition, kPosition, kAngle, kAngle, kAngle});
 }
 
 Kind kind_of(Plain, const Waypoints& waypoints) {
@@ -253,9 +243,7 @@ struct DescribeFields {
 
   template <class T, class Form = Plain>
   void operator()(const Key& key, const T& member, const Form& form = {}) {
-    add(key, kind_of(form, member));
-  }
-  void add(const Key& key, const Kind& value) {
+    const Kind value = kind_of(form, member);
     const std::string name(key.name), absent = without(key);
     if (key.without == kRequired) required.push_back(key.name);
     std::string description(key.meaning);
@@ -305,11 +293,10 @@ struct DescribeFields {
   }
 };
 
-template <HasFields T>
-Kind kind_of(Plain, const T& object) {
+Kind kind_of(Plain, const HasFields auto& object) {
   Kind kind{"a map", {}};
   const input::Value defaults = all_keys(object);
-  T visited = object;
+  auto visited = object;
   DescribeFields describe{.defaults = defaults, .kind = kind};
   fields(visited, describe);
   kind.schema = describe.schema();

@@ -37,8 +37,7 @@ struct Item {
 
 // --- checks of a whole map, after its keys
 
-template <class T>
-void complete(input::Reader&, T&) {}
+void complete(input::Reader&, auto&) {}
 
 void complete(input::Reader& reader, Ego& ego) {
   if (!ego.path.empty()) {
@@ -147,14 +146,12 @@ void read_value(const Item& item, const Words& form, std::string& out) {
   out = form.words[input::as_choice(item.value, item.path, form.words)];
 }
 
-template <class Enum>
-requires std::is_enum_v<Enum>
+template <Enumeration Enum>
 void read_value(const Item& item, const Words& form, Enum& out) {
   out = static_cast<Enum>(input::as_choice(item.value, item.path, form.words));
 }
 
-template <class Enum>
-requires std::is_enum_v<Enum>
+template <Enumeration Enum>
 void read_value(const Item& item, const OwnFileOr& form, Enum& out) {
   const input::Value& value = item.value;
   if (value.kind == input::Value::Kind::scalar && value.text.ends_with(".xml")) {
@@ -642,8 +639,7 @@ void refuse_foreign_keys(const Item& item, const input::Reader& reader) {
   }
 }
 
-template <HasFields T>
-void read_value(const Item& item, Plain, T& out) {
+void read_value(const Item& item, Plain, HasFields auto& out) {
   input::Reader reader(item.value, item.path);
   if constexpr (requires { out.source; }) out.source = reader.where();
   fields(out, ReadFields{reader, item.folder});

@@ -32,8 +32,7 @@ std::string scenes_in(const fs::path& folder) {
 
 /// \param kind an enumerator, by whose number `files` are in order. \throws std::invalid_argument
 /// if it has no file.
-template <class Kind>
-const char* file_of(Kind kind, std::span<const char* const> files) {
+const char* file_of(auto kind, std::span<const char* const> files) {
   const auto place = static_cast<std::size_t>(kind);
   if (place >= files.size()) throw std::invalid_argument("this does not ship with the project");
   return files[place];

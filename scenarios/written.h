@@ -18,6 +18,12 @@ inline input::Value list(std::vector<input::Value> items) {
   value.items = std::move(items);
   return value;
 }
+/// A list of what `write` makes of each item.
+input::Value list_of(const auto& all, const auto& write) {
+  input::Value value = list({});
+  for (const auto& one : all) value.items.push_back(write(one));
+  return value;
+}
 inline input::Value map() {
   return {input::Value::Kind::map, {}};
 }
@@ -33,27 +39,23 @@ inline input::Value written(const input::Quantity& quantity, double number) {
 inline input::Value written(const In& form, double number) {
   return scalar(input::quantity_text(number, form.dimension, form.unit));
 }
-template <class Form, std::integral T>
-input::Value written(const Form&, T number) {
+input::Value written(const auto&, std::integral auto number) {
   return scalar(std::to_string(number));
 }
 inline input::Value written(Plain, bool value) {
   return scalar(value ? "true" : "false");
 }
-template <class Form>
-input::Value written(const Form&, const std::string& text) {
+input::Value written(const auto&, const std::string& text) {
   return text.empty() ? input::Value{} : scalar(text);
 }
-template <class Form>
-input::Value written(const Form&, const std::filesystem::path& path) {
+input::Value written(const auto&, const std::filesystem::path& path) {
   return written(Plain{}, path.string());
 }
-template <class Enum>
-requires std::is_enum_v<Enum> input::Value written(const Words& form, Enum value) {
+input::Value written(const Words& form, Enumeration auto value) {
   return scalar(form.words[static_cast<std::size_t>(value)]);
 }
-template <class Enum>
-requires std::is_enum_v<Enum> input::Value written(const OwnFileOr& form, Enum value) {
+template <Enumeration Enum>
+input::Value written(const OwnFileOr& form, Enum value) {
   return value == Enum::own ? scalar(form.file.string()) : written(Words{form.words}, value);
 }
 inline input::Value written(const FramesBefore&, int) {
@@ -61,23 +63,18 @@ inline input::Value written(const FramesBefore&, int) {
 }
 template <class Form, class Number, int N>
 input::Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector) {
-  input::Value items = list({});
-  for (const Number number : vector) items.items.push_back(written(form, number));
-  return items;
+  return list_of(vector, [&](Number number) { return written(form, number); });
 }
 inline input::Value written(const input::Quantity& quantity, const Eigen::Matrix3d& matrix) {
-  input::Value rows = list({});
-  for (const Eigen::Vector3d row : matrix.transpose().colwise()) {
-    rows.items.push_back(written(quantity, row));
-  }
-  return rows;
+  return list_of(matrix.transpose().colwise(),
+                 [&](const Eigen::Vector3d& row) { return written(quantity, row); });
 }
 inline input::Value written(const OneOrTwo& form, const Eigen::Vector2d& pair) {
   return pair.x() == pair.y() ? written(form.quantity, pair.x()) : written(form.quantity, pair);
 }
 inline input::Value written(Plain, const Distortion& distortion) {
-  input::Value numbers = list({});
-  for (const double k : distortion.coefficients) numbers.items.push_back(written(kCoefficient, k));
+  const input::Value numbers =
+      list_of(distortion.coefficients, [](double k) { return written(kCoefficient, k); });
   if (!distortion.equidistant) return numbers;
   input::Value fisheye = map();
   put(fisheye, "equidistant", numbers);
@@ -96,13 +93,13 @@ inline input::Value written(Plain, const PathPose& pose) {
 inline input::Value written(Plain, const TimeSpan& span) {
   return list({written(kTime, span.from_s), written(kTime, span.to_s)});
 }
-template <HasFields T>
-input::Value written(Plain, const T& object);
-template <class Form, class T>
-input::Value written(const Form& form, const std::vector<T>& values);
-inline input::Value written(Plain, const Waypoints& waypoints);
-template <class Form, class T>
-input::Value written(const Form& form, const std::optional<T>& value) {
+template <class T>
+input::Value written(const auto& form, const std::vector<T>& values) {
+  if (values.empty()) return {};
+  return list_of(values, [&](const T& value) { return written(form, value); });
+}
+template <class T>
+input::Value written(const auto& form, const std::optional<T>& value) {
   if (!value) return {};
   input::Value inner = written(form, *value);
   return inner.kind == input::Value::Kind::null ? map() : inner;
@@ -139,8 +136,7 @@ struct WriteFields {
 };
 
 /// All keys that have a value.
-template <HasFields T>
-input::Value all_keys(T object, bool is_default = false) {
+input::Value all_keys(HasFields auto object, bool is_default = false) {
   input::Value keys = map();
   fields(object, WriteFields{keys, is_default});
   return keys;
@@ -159,8 +155,7 @@ inline Imu default_beside(const Imu& imu) {
 }
 
 /// The keys that differ from their defaults.
-template <HasFields T>
-input::Value written(Plain, const T& object) {
+input::Value written(Plain, const HasFields auto& object) {
   input::Value keys = all_keys(object);
   const input::Value standard = all_keys(default_beside(object), true);
   std::erase_if(keys.entries, [&](const input::Entry& entry) {
@@ -171,12 +166,6 @@ input::Value written(Plain, const T& object) {
   return keys.entries.empty() ? input::Value{} : keys;
 }
 
-template <class Form, class T>
-input::Value written(const Form& form, const std::vector<T>& values) {
-  input::Value items = list({});
-  for (const T& value : values) items.items.push_back(written(form, value));
-  return values.empty() ? input::Value{} : items;
-}
 inline input::Value written(Plain, const Waypoints& waypoints) {
   return written(Plain{}, waypoints.points);
 }
@@ -190,9 +179,7 @@ inline input::Value written(Plain, const std::vector<EgoPhase>& phases) {
 }
 inline input::Value written(Plain, const std::vector<Actor>& actors) {
   input::Value names = map();
-  for (const Actor& actor : actors) {
-    put(names, actor.name, written(Plain{}, actor));
-  }
+  for (const Actor& actor : actors) put(names, actor.name, written(Plain{}, actor));
   return actors.empty() ? input::Value{} : names;
 }
 inline input::Value written(Plain, const std::vector<RigCamera>& cameras) {
@@ -207,19 +194,15 @@ inline input::Value written(const FilterParameters& form,
                             const std::vector<FilterSetting>& settings) {
   input::Value keys = map();
   if (!form.preset.empty()) put(keys, "preset", scalar(form.preset));
-  for (const FilterSetting& setting : settings) {
-    put(keys, setting.key, scalar(setting.value));
-  }
+  for (const FilterSetting& setting : settings) put(keys, setting.key, scalar(setting.value));
   return keys.entries.empty() ? input::Value{} : keys;
 }
 inline input::Value written(Plain, const std::vector<SweptKey>& sweep) {
   input::Value keys = map();
   for (const SweptKey& swept : sweep) {
-    input::Value values = list({});
-    for (const SweptKey::Value& value : swept.values) {
-      values.items.push_back(input::parse_text(value.text, value.source));
-    }
-    put(keys, swept.key, values);
+    put(keys, swept.key, list_of(swept.values, [](const SweptKey::Value& value) {
+          return input::parse_text(value.text, value.source);
+        }));
   }
   return sweep.empty() ? input::Value{} : keys;
 }
