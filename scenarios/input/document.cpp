@@ -210,30 +210,24 @@ int height(const Value& value) {
 /// \param level number of enclosing maps. Maps of the first two levels, deeply nested maps
 /// and nested lists have a line per key or item. All others are in one line.
 void emit(YAML::Emitter& out, const Value& value, int level) {
-  switch (value.kind) {
-    case Value::Kind::null:
-      out << YAML::Null;
-      return;
-    case Value::Kind::scalar:
-      out << value.text;
-      return;
-    case Value::Kind::list:
-      if (level >= kOneLine || height(value) < 2) out << YAML::Flow;
-      out << YAML::BeginSeq;
-      for (const Value& item : value.items) emit(out, item, std::max(level + 1, 2));
-      out << YAML::EndSeq;
-      return;
-    case Value::Kind::map:
-      if (level >= kOneLine || (level >= 2 && height(value) < 3) || value.entries.empty()) {
-        out << YAML::Flow;
-      }
-      out << YAML::BeginMap;
-      for (const Entry& entry : value.entries) {
-        out << YAML::Key << entry.key << YAML::Value;
-        emit(out, entry.value, level + 1);
-      }
-      out << YAML::EndMap;
-      return;
+  if (value.kind == Value::Kind::null) out << YAML::Null;
+  if (value.kind == Value::Kind::scalar) out << value.text;
+  if (value.kind == Value::Kind::list) {
+    if (level >= kOneLine || height(value) < 2) out << YAML::Flow;
+    out << YAML::BeginSeq;
+    for (const Value& item : value.items) emit(out, item, std::max(level + 1, 2));
+    out << YAML::EndSeq;
+  }
+  if (value.kind == Value::Kind::map) {
+    if (level >= kOneLine || (level >= 2 && height(value) < 3) || value.entries.empty()) {
+      out << YAML::Flow;
+    }
+    out << YAML::BeginMap;
+    for (const Entry& entry : value.entries) {
+      out << YAML::Key << entry.key << YAML::Value;
+      emit(out, entry.value, level + 1);
+    }
+    out << YAML::EndMap;
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <memory>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -53,23 +52,16 @@ void InputFile::fail(const std::string& what, std::string_view remedy) const {
 }
 
 void InputFile::fail(int error) const {
-  switch (error) {
-    case EIO:  // a fault of the disk, not of the file: nobody may take it for a bad input
-      throw std::system_error(error, std::generic_category(), file_ + " cannot be read");
-    case ENOENT:
-    case ENOTDIR:
-      fail("there is no such file", kind_.remedy);
-    case EACCES:
-    case EPERM:
-      fail("the file cannot be read", "check its permissions");
-    case EMFILE:
-    case ENFILE:
-      fail("the file cannot be opened beside so many others",
-           "raise the limit of open files (ulimit -n)");
-    default:
-      fail("the file cannot be read (" + std::generic_category().message(error) + ")",
-           kind_.remedy);
+  if (error == EIO) {  // a fault of the disk, not of the file: nobody may take it for a bad input
+    throw std::system_error(error, std::generic_category(), file_ + " cannot be read");
   }
+  if (error == ENOENT || error == ENOTDIR) fail("there is no such file", kind_.remedy);
+  if (error == EACCES || error == EPERM) fail("the file cannot be read", "check its permissions");
+  if (error == EMFILE || error == ENFILE) {
+    fail("the file cannot be opened beside so many others",
+         "raise the limit of open files (ulimit -n)");
+  }
+  fail("the file cannot be read (" + std::generic_category().message(error) + ")", kind_.remedy);
 }
 
 void InputFile::check(const struct stat& status) const {
@@ -114,9 +106,7 @@ bool InputFile::decompress() {
         gzip.get(), compressed_.data() + decompressed_, compressed_.size() - decompressed_,
         member_.get(), room_, &taken, &given);
     if (result == LIBDEFLATE_SUCCESS) break;
-    if (result != LIBDEFLATE_INSUFFICIENT_SPACE) {
-      fail("this is no whole gzip file", kind_.remedy);
-    }
+    if (result != LIBDEFLATE_INSUFFICIENT_SPACE) fail("this is no whole gzip file", kind_.remedy);
     check_size(read_ + room_);
     if (room_ >= kLargestMember) {
       fail("the file has " + size_text(kLargestMember) + " or more in one gzip member",

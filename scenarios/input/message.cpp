@@ -113,23 +113,24 @@ std::string message_of(const std::exception& error) {
 }
 
 std::size_t utf8_length(std::string_view bytes) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
-  const auto between = [&](std::size_t i, unsigned low, unsigned high) {
-    return i < bytes.size() && byte(i) >= low && byte(i) <= high;
+  struct Row {  // the range of the first byte, the length, and the range of the second byte
+    std::uint8_t first, last;
+    std::size_t length;
+    std::uint8_t low, high;
   };
-  const std::uint8_t lead = byte(0);
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead <= 0xDF) return between(1, 0x80, 0xBF) ? 2 : 0;
-  if (lead >= 0xE0 && lead <= 0xEF) {
-    const unsigned low = lead == 0xE0 ? 0xA0 : 0x80;
-    const unsigned high = lead == 0xED ? 0x9F : 0xBF;
-    return between(1, low, high) && between(2, 0x80, 0xBF) ? 3 : 0;
-  }
-  if (lead >= 0xF0 && lead <= 0xF4) {
-    const unsigned low = lead == 0xF0 ? 0x90 : 0x80;
-    const unsigned high = lead == 0xF4 ? 0x8F : 0xBF;
-    const bool whole = between(1, low, high) && between(2, 0x80, 0xBF) && between(3, 0x80, 0xBF);
-    return whole ? 4 : 0;
+  constexpr Row kTable[] = {
+      {0x00, 0x7F, 1, 0, 0},       {0xC2, 0xDF, 2, 0x80, 0xBF}, {0xE0, 0xE0, 3, 0xA0, 0xBF},
+      {0xE1, 0xEC, 3, 0x80, 0xBF}, {0xED, 0xED, 3, 0x80, 0x9F}, {0xEE, 0xEF, 3, 0x80, 0xBF},
+      {0xF0, 0xF0, 4, 0x90, 0xBF}, {0xF1, 0xF3, 4, 0x80, 0xBF}, {0xF4, 0xF4, 4, 0x80, 0x8F}};
+  const auto is_in = [&](std::size_t i, std::uint8_t low, std::uint8_t high) {
+    const auto byte = static_cast<std::uint8_t>(i < bytes.size() ? bytes[i] : 0);
+    return low <= byte && byte <= high;
+  };
+  for (const Row& row : kTable) {
+    if (!is_in(0, row.first, row.last)) continue;
+    bool is_whole = row.length == 1 || is_in(1, row.low, row.high);
+    for (std::size_t i = 2; i < row.length; ++i) is_whole = is_whole && is_in(i, 0x80, 0xBF);
+    return is_whole ? row.length : 0;
   }
   return 0;
 }

@@ -169,13 +169,11 @@ std::optional<std::string> Reader::at_most_one_of(std::vector<std::string_view> 
   return given;
 }
 
-std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::string_view> keys) {
-  const std::optional<std::string> given = at_most_one_of(keys);
-  if (given) return given;
+void Reader::exactly_one_of(std::initializer_list<std::string_view> keys) {
+  if (at_most_one_of(keys)) return;
   std::vector<std::string> quoted;
   for (const std::string_view key : keys) quoted.push_back(quote(key));
   missing_.push_back(joined(quoted, " or "));
-  return std::nullopt;
 }
 
 void Reader::refuse(std::string_view key, const std::string& what) {

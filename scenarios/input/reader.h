@@ -112,7 +112,7 @@ class Reader {
   /// key that was queried first.
   std::optional<std::string> at_most_one_of(std::vector<std::string_view> keys);
   /// As `at_most_one_of`, but `finish` throws if all are absent.
-  std::optional<std::string> exactly_one_of(std::initializer_list<std::string_view> keys);
+  void exactly_one_of(std::initializer_list<std::string_view> keys);
 
   /// \throws Error at the value of a given key. \param what follows the key's path.
   [[noreturn]] void refuse(std::string_view key, const std::string& what);
