@@ -24,16 +24,11 @@ void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const V
 
 std::pair<Vector2d, double> at_wall(const Vector2d& half_m, int wall, double along, double off_m) {
   const double x = half_m.x(), y = half_m.y();
-  switch (wall) {
-    case 0:
-      return {{along * x, y - off_m}, 0};
-    case 1:
-      return {{along * x, -y + off_m}, std::numbers::pi};
-    case 2:
-      return {{x - off_m, along * y}, -std::numbers::pi / 2};
-    default:
-      return {{-x + off_m, along * y}, std::numbers::pi / 2};
-  }
+  const std::pair<Vector2d, double> of_walls[] = {{{along * x, y - off_m}, 0},
+                                                  {{along * x, -y + off_m}, std::numbers::pi},
+                                                  {{x - off_m, along * y}, -std::numbers::pi / 2},
+                                                  {{-x + off_m, along * y}, std::numbers::pi / 2}};
+  return of_walls[wall];
 }
 
 void line_walls(Kit& kit, const std::vector<std::string>& kinds, int count,
@@ -53,10 +48,9 @@ void line_walls(Kit& kit, const std::vector<std::string>& kinds, int count,
 void hang(Kit& kit, int count, const Vector2d& half_m) {
   for (int i = 0; i < count; ++i) {
     const Thing lamp = hanging(kit, kit.ceiling_m, kit.draw.between(1.5, kit.ceiling_m - 0.35));
-    kit.try_stand(
-        {lamp,
-         {kit.draw.between(-0.6, 0.6) * half_m.x(), kit.draw.between(-0.6, 0.6) * half_m.y()},
-         kit.draw.between(0, std::numbers::pi)});
+    const Vector2d share{kit.draw.between(-0.6, 0.6), kit.draw.between(-0.6, 0.6)};
+    const double heading = kit.draw.between(0, std::numbers::pi);
+    kit.try_stand({lamp, share.cwiseProduct(half_m), heading});
   }
 }
 
@@ -102,14 +96,10 @@ void enclose(Kit& kit, const Vector2d& half_m, double height_m, const Shell& mat
 void skirt(Kit& kit, const Vector2d& half_m) {
   const int skirting = kit.plain();
   for (const double side : {-1.0, 1.0}) {
-    kit.fix({{kit.block({{2 * half_m.x(), 0.02, 0.08}, {0, 0, 0}, skirting})},
-             {0, side * (half_m.y() - 0.01)},
-             0,
-             false});
-    kit.fix({{kit.block({{0.02, 2 * half_m.y(), 0.08}, {0, 0, 0}, skirting})},
-             {side * (half_m.x() - 0.01), 0},
-             0,
-             false});
+    const Part along = kit.block({{2 * half_m.x(), 0.02, 0.08}, {0, 0, 0}, skirting});
+    kit.fix({{along}, {0, side * (half_m.y() - 0.01)}, 0, false});
+    const Part across = kit.block({{0.02, 2 * half_m.y(), 0.08}, {0, 0, 0}, skirting});
+    kit.fix({{across}, {side * (half_m.x() - 0.01), 0}, 0, false});
   }
 }
 

@@ -19,13 +19,9 @@ FloorPlan lay_out_corridor(Kit& kit) {
   const int walls = wall_surface(kit), ends = wall_surface(kit), behind = wall_surface(kit);
   const int leaf = kit.draw.chance(0.5) ? kit.plain() : kit.surface({Style::wood, Style::worn});
   const int frame = kit.plain();
-  kit.fix({{kit.block({{2 * half_length, 2 * (half_width + depth), 0.1},
-                       {0, 0, height},
-                       pale(kit, 0.6, 0.95)})},
-           {0, 0},
-           0,
-           false});
   const double x0 = -half_length, x1 = half_length, y1 = half_width + depth;
+  const int white = pale(kit, 0.6, 0.95);
+  kit.fix({{kit.block({{2 * x1, 2 * y1, 0.1}, {0, 0, height}, white})}, {0, 0}, 0, false});
   kit.wall({x1, y1}, {x1, -y1}, height, ends);
   kit.wall({x0, -y1}, {x0, y1}, height, ends);
   kit.wall({x1, -y1}, {x0, -y1}, height, behind);
@@ -37,6 +33,7 @@ FloorPlan lay_out_corridor(Kit& kit) {
     if (d.chance(0.75)) passages.emplace_back(x, x + d.between(1.3, 2.4));
   }
   for (const double side : {-1.0, 1.0}) {
+    const double heading = side > 0 ? 0 : std::numbers::pi;
     const auto build = [&](double from, double to, double foot) {
       if (to - from < 0.02) return;
       const double y = side * half_width;
@@ -48,10 +45,7 @@ FloorPlan lay_out_corridor(Kit& kit) {
       const double to = i < passages.size() ? passages[i].first : x1;
       // doors protrude slightly from the wall
       for (double x = from + d.between(0.8, 2); x < to - 0.8; x += d.between(1.8, 4)) {
-        kit.fix({door(kit, leaf, frame),
-                 {x, side * (half_width - 0.01)},
-                 side > 0 ? 0 : std::numbers::pi,
-                 false});
+        kit.fix({door(kit, leaf, frame), {x, side * (half_width - 0.01)}, heading, false});
       }
       build(from, to, 0);
       if (i == passages.size()) break;
@@ -68,12 +62,10 @@ FloorPlan lay_out_corridor(Kit& kit) {
     }
     for (int i = d.whole(0, 4); i > 0; --i) {  // boards
       const double w = d.between(0.3, 1.2);
-      kit.fix({{kit.block({{w, 0.02, w * d.between(0.6, 1.3)},
-                           {0, 0, d.between(1.0, 1.4)},
-                           kit.surface({Style::lettering, Style::stripes, Style::fractal})})},
-               {d.between(x0 + 1, x1 - 1), side * (half_width - 0.02)},
-               side > 0 ? 0 : std::numbers::pi,
-               false});
+      const Vector3d size{w, 0.02, w * d.between(0.6, 1.3)}, foot{0, 0, d.between(1.0, 1.4)};
+      const int face = kit.surface({Style::lettering, Style::stripes, Style::fractal});
+      const Vector2d at{d.between(x0 + 1, x1 - 1), side * (half_width - 0.02)};
+      kit.fix({{kit.block({size, foot, face})}, at, heading, false});
     }
   }
   if (d.chance(0.3)) {

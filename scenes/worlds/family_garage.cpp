@@ -37,9 +37,8 @@ FloorPlan lay_out_garage(Kit& kit) {
         pillar.push_back(kit.block({{thick + 0.008, thick + 0.008, 0.8}, {0, 0, 0}, band}));
       }
       if (d.chance(0.6)) {
-        pillar.push_back(kit.block({{thick * 0.7, thick + 0.02, thick * 0.7},
-                                    {0, 0, 1.4},
-                                    kit.surface({Style::lettering})}));
+        const Vector3d plate{thick * 0.7, thick + 0.02, thick * 0.7};
+        pillar.push_back(kit.block({plate, {0, 0, 1.4}, kit.surface({Style::lettering})}));
       }
       kit.stand({"pillar", pillar}, {x, side * (aisle + 0.3)}, 0);
       for (const double part : {0.0, 0.5}) {  // bay markings
@@ -47,11 +46,10 @@ FloorPlan lay_out_garage(Kit& kit) {
         kit.decal({x + part * pitch, side * (aisle + bay / 2 + 0.2)}, 0, {0.1, bay - 0.6}, white);
       }
     }
-    const double z = height - d.between(0.12, 0.25);
-    kit.world.setting.push_back(kit.bar({{-half.x(), side * aisle * 0.7, z},
-                                         {half.x(), side * aisle * 0.7, z},
-                                         d.between(0.03, 0.08),
-                                         kit.plain()}));
+    const double y = side * aisle * 0.7, z = height - d.between(0.12, 0.25);
+    const double radius = d.between(0.03, 0.08);
+    kit.world.setting.push_back(
+        kit.bar({{-half.x(), y, z}, {half.x(), y, z}, radius, kit.plain()}));
   }
   for (double x = -half.x() + pitch / 2; x < half.x(); x += pitch) {
     kit.world.setting.push_back(
@@ -81,10 +79,8 @@ FloorPlan lay_out_garage(Kit& kit) {
       for (double x = -half.x() + pitch * 0.75; x < half.x() - 1; x += pitch / 2) {
         if (!d.chance(0.6)) continue;
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand({car,
-                       {x, side * (aisle + bay / 2 + 0.3)},
-                       side * (d.chance(0.5) ? 1 : -1) * std::numbers::pi / 2,
-                       0.15});
+        const double heading = side * (d.chance(0.5) ? 1 : -1) * std::numbers::pi / 2;
+        kit.try_stand({car, {x, side * (aisle + bay / 2 + 0.3)}, heading, 0.15});
       }
     }
     const Vector2d inner = half - Vector2d(0.3, 0.3);

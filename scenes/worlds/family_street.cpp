@@ -45,32 +45,26 @@ FloorPlan lay_out_street(Kit& kit) {
         const double h = d.between(4, 10), deep = d.between(0.3, 0.9);
         const int face = d.chance(0.1) ? wall_surface(kit)
                                        : kit.surface({Style::facade, Style::facade, Style::bricks});
-        kit.fix({{kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face})},
-                 {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))},
-                 0});
+        const Part house = kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face});
+        kit.fix({{house}, {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))}, 0});
         if (d.chance(0.7)) {  // a door, and a sign above it
-          const int leaf = kit.plain();
-          kit.fix({{kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, leaf})},
-                   {x + w * d.between(0.3, 0.7), y + side * 0.03},
-                   0,
-                   false});
+          const Part leaf = kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, kit.plain()});
+          kit.fix({{leaf}, {x + w * d.between(0.3, 0.7), y + side * 0.03}, 0, false});
           if (d.chance(0.5)) {
             kit.tag("hanging");
-            kit.fix({{kit.block({{0.05, 0.7, 0.5}, {0, 0, 2.4}, kit.surface({Style::lettering})})},
-                     {x + w * d.between(0.2, 0.8), y - side * 0.4},
-                     0,
-                     false});
+            const int words = kit.surface({Style::lettering});
+            const Part sign = kit.block({{0.05, 0.7, 0.5}, {0, 0, 2.4}, words});
+            kit.fix({{sign}, {x + w * d.between(0.2, 0.8), y - side * 0.4}, 0, false});
           }
         }
       } else if (kind < 0.85) {
-        kit.fix({{kit.block({{w, 0.3, d.between(1, 2.2)}, {0, 0, 0}, wall_surface(kit)})},
-                 {x + w / 2, y + side * 0.2},
-                 0});
-      } else {
+        const Vector3d size{w, 0.3, d.between(1, 2.2)};
         kit.fix(
-            {{kit.block({{w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage})})},
-             {x + w / 2, y + side * 0.5},
-             0});
+            {{kit.block({size, {0, 0, 0}, wall_surface(kit)})}, {x + w / 2, y + side * 0.2}, 0});
+      } else {
+        const Vector3d size{w, 0.8, d.between(0.9, 1.8)};
+        const Part hedge = kit.block({size, {0, 0, 0}, kit.surface({Style::foliage})});
+        kit.fix({{hedge}, {x + w / 2, y + side * 0.5}, 0});
       }
       x += w + (d.chance(0.2) ? d.between(1, 3) : 0);
     }
@@ -104,10 +98,8 @@ FloorPlan lay_out_street(Kit& kit) {
     for (const double side : {-1.0, 1.0}) {
       for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand({car,
-                       {d.between(back, front), side * (road - 1.05)},
-                       d.chance(0.5) ? 0 : std::numbers::pi,
-                       0.4});
+        const Vector2d at{d.between(back, front), side * (road - 1.05)};
+        kit.try_stand({car, at, d.chance(0.5) ? 0 : std::numbers::pi, 0.4});
       }
       const double y0 = side * (road + 0.1), y1 = side * (road + pavement - 0.1);
       scatter(kit,

@@ -35,12 +35,9 @@ FloorPlan lay_out_warehouse(Kit& kit) {
                 side > 0 ? 0 : std::numbers::pi);
     }
     for (int i = d.whole(0, 2); i > 0; --i) {  // lamps along the ceiling
-      kit.fix({{kit.block({{d.between(1, 2.5), 0.15, 0.06},
-                           {0, 0, height - 0.07},
-                           kit.plain({1, 1, 0.95}, 1, 0.4)})},
-               {d.between(-0.7, 0.7) * half.x(), side * d.between(0, aisle)},
-               0,
-               false});
+      const Vector3d size{d.between(1, 2.5), 0.15, 0.06};
+      const Part lamp = kit.block({size, {0, 0, height - 0.07}, kit.plain({1, 1, 0.95}, 1, 0.4)});
+      kit.fix({{lamp}, {d.between(-0.7, 0.7) * half.x(), side * d.between(0, aisle)}, 0, false});
     }
   }
 

@@ -49,10 +49,8 @@ FloorPlan lay_out_yard(Kit& kit) {
   for (int i = 0; i < 4; ++i) {
     const bool across = i < 2;
     const double length = 2 * (across ? half.x() : half.y());
-    const Vector2d at = i == 0   ? Vector2d(0, half.y())
-                        : i == 1 ? Vector2d(0, -half.y())
-                        : i == 2 ? Vector2d(half.x(), 0)
-                                 : Vector2d(-half.x(), 0);
+    const double side = i % 2 == 0 ? 1 : -1;
+    const Vector2d at = across ? Vector2d(0, side * half.y()) : Vector2d(side * half.x(), 0);
     const double turn = across ? 0 : std::numbers::pi / 2;
     const double kind = d.between(0, 1);
     if (kind < 0.35) {
@@ -68,21 +66,16 @@ FloorPlan lay_out_yard(Kit& kit) {
       }
       kit.fix({fence, at, turn});
     } else if (kind < 0.6) {
-      kit.fix({{kit.block({{length, d.between(0.5, 1), d.between(0.8, 2.2)},
-                           {0, 0, 0},
-                           kit.wide_surface({Style::foliage})})},
-               at,
-               turn});
+      const Vector3d size{length, d.between(0.5, 1), d.between(0.8, 2.2)};
+      const Part hedge = kit.block({size, {0, 0, 0}, kit.wide_surface({Style::foliage})});
+      kit.fix({{hedge}, at, turn});
     } else if (kind < 0.85) {
-      kit.fix({{kit.block({{length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit)})},
-               at,
-               turn});
+      const Vector3d size{length, 0.3, d.between(1, 3) + 1};
+      kit.fix({{kit.block({size, {0, 0, -0.5}, wall_surface(kit)})}, at, turn});
     } else {
-      kit.fix({{kit.block({{length, 0.6, d.between(4, 8)},
-                           {0, 0, -0.3},
-                           kit.wide_surface({Style::facade, Style::bricks})})},
-               at,
-               turn});
+      const Vector3d size{length, 0.6, d.between(4, 8)};
+      const int face = kit.wide_surface({Style::facade, Style::bricks});
+      kit.fix({{kit.block({size, {0, 0, -0.3}, face})}, at, turn});
     }
   }
   layout.traffic = {.kinds = {"person", "person", "bicycle", "ball", "cart", "robot", "sack",

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -17,27 +16,12 @@ constexpr std::size_t kMostTextures = 16;
 constexpr double kLeastWeather_levels = 4, kMostWeather_levels = 55;
 constexpr double kPhotographs = 0.4;  // share of surfaces, if pictures are given
 
-/// Least and greatest width in metres that a picture of a style spans.
-std::pair<double, double> span_of(Style style) {
-  switch (style) {
-    case Style::concrete:
-    case Style::plain:
-      return {1.5, 4};
-    case Style::facade:
-      return {3, 7};
-    case Style::worn:
-    case Style::fractal:
-      return {0.6, 2};
-    case Style::stripes:
-    case Style::grille:
-    case Style::speckle:
-      return {0.3, 1};
-    case Style::tiles:
-      return {0.4, 1.6};
-    default:
-      return {0.5, 1.2};
-  }
-}
+/// Least and greatest width in metres that a picture of a style spans, where it is not the usual.
+const std::map<Style, std::pair<double, double>> kSpans_m{
+    {Style::concrete, {1.5, 4}}, {Style::plain, {1.5, 4}},   {Style::facade, {3, 7}},
+    {Style::worn, {0.6, 2}},     {Style::fractal, {0.6, 2}}, {Style::stripes, {0.3, 1}},
+    {Style::grille, {0.3, 1}},   {Style::speckle, {0.3, 1}}, {Style::tiles, {0.4, 1.6}}};
+constexpr std::pair kUsualSpan_m{0.5, 1.2};
 
 /// Rounds to millimetres as in the files, so that equal parts share a mesh.
 double rounded(double value) {
@@ -91,7 +75,8 @@ int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
       style == Style::grille || style == Style::facade || style == Style::corrugated) {
     tag("pattern");
   }
-  const auto [least, most] = span_of(style);
+  const auto span = kSpans_m.find(style);
+  const auto [least, most] = span == kSpans_m.end() ? kUsualSpan_m : span->second;
   Material material;
   material.side_m = draw.scaled(least, most) * (is_wide ? 1.4 : 1);
   material.fits = style == Style::lettering && !is_wide;
@@ -318,9 +303,8 @@ void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, in
   const double heading = std::atan2(along.y(), along.x());
   const Vector2d middle =
       (from_m + to_m) / 2 + Vector2d(-along.y(), along.x()).normalized() * (thickness_m / 2);
-  fix({{block({{along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material})},
-       middle,
-       heading});
+  const Part part = block({{along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material});
+  fix({{part}, middle, heading});
 }
 
 void Kit::floor(int material, const Vector2d& half_m) {
@@ -348,10 +332,8 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
 void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material) {
   // slightly different heights avoid z-fighting
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
-  fix({{block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material})},
-       at_m,
-       heading_rad,
-       false});
+  const Part part = block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material});
+  fix({{part}, at_m, heading_rad, false});
 }
 
 void Kit::shadow(const Vector2d& at_m) {
@@ -372,10 +354,8 @@ void Kit::shadow(const Vector2d& at_m) {
   });
   if (!is_level) return;
   tag("painted_shadow");
-  fix({{prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)})},
-       at_m,
-       heading,
-       false});
+  const Part part = prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)});
+  fix({{part}, at_m, heading, false});
 }
 
 }  // namespace lcs::worlds

@@ -57,30 +57,20 @@ class Planner {
       speed = fastest * d_.between(0.7, 1);
     }
     double heading = rover.heading_rad;
-    switch (path) {
-      case Path::across:
-      case Path::shuttle:
-        heading += d_.either(std::numbers::pi / 2 - 0.25, std::numbers::pi / 2 + 0.25);
-        break;
-      case Path::slanting:
-        heading += d_.chance(0.5) ? d_.either(0.4, 1.2) : d_.either(1.9, 2.7);
-        break;
-      case Path::coming:
-        heading += std::numbers::pi + d_.between(-0.25, 0.25);
-        break;
-      case Path::going:
-        heading += d_.between(-0.25, 0.25);
-        break;
-      case Path::pacing:
-      case Path::overtaking: {
-        const double rover_mps = s_.ego.phases.front().speed_mps;
-        if (rover_mps < 0.1) return false;
-        heading += s_.ego.phases.front().direction_rad;
-        speed = rover_mps * (path == Path::pacing ? 1 : d_.between(1.4, 3));
-        break;
-      }
-      case Path::circle:
-        return plan_circle(mover, meeting, box, speed);
+    if (path == Path::circle) return plan_circle(mover, meeting, box, speed);
+    if (path == Path::across || path == Path::shuttle) {
+      heading += d_.either(std::numbers::pi / 2 - 0.25, std::numbers::pi / 2 + 0.25);
+    } else if (path == Path::slanting) {
+      heading += d_.chance(0.5) ? d_.either(0.4, 1.2) : d_.either(1.9, 2.7);
+    } else if (path == Path::coming) {
+      heading += std::numbers::pi + d_.between(-0.25, 0.25);
+    } else if (path == Path::going) {
+      heading += d_.between(-0.25, 0.25);
+    } else {  // beside the rover, or past it
+      const double rover_mps = s_.ego.phases.front().speed_mps;
+      if (rover_mps < 0.1) return false;
+      heading += s_.ego.phases.front().direction_rad;
+      speed = rover_mps * (path == Path::pacing ? 1 : d_.between(1.4, 3));
     }
     return plan_straight(mover, meeting, box, heading, speed, path == Path::shuttle);
   }
@@ -220,9 +210,9 @@ class Planner {
 };
 
 struct Sight {
-  int points = 0;  ///< of 27, in the picture and not occluded
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  ///< of those in front of the camera
-  bool before = false;                                        ///< a nearer mover hides part of it
+  int points = 0;          ///< of 27, in the picture and not occluded
+  Eigen::AlignedBox2d px;  ///< of those in front of the camera
+  bool before = false;     ///< a nearer mover hides part of it
 };
 
 constexpr int kLeastPoints = 5;
@@ -239,10 +229,7 @@ Sight look(const Kit& kit, const Stand& stand, const TurnedBox& box,
         const Vector3d point = point_of(box, x, y, z);
         const Vector3d seen = seen_at(camera, stand, level, point);
         if (seen.z() < 0.06) continue;
-        sight.left = std::min(sight.left, seen.x());
-        sight.right = std::max(sight.right, seen.x());
-        sight.top = std::min(sight.top, seen.y());
-        sight.bottom = std::max(sight.bottom, seen.y());
+        sight.px.extend(seen.head<2>());
         if (seen.x() < 0 || seen.y() < 0 || seen.x() >= camera.width_px ||
             seen.y() >= camera.height_px) {
           continue;
@@ -270,7 +257,7 @@ std::vector<TurnedBox> boxes_of_others(const Kit& kit, const std::vector<Planned
 }
 
 bool is_seen(const Sight& sight) {
-  return sight.points >= kLeastPoints && sight.bottom - sight.top >= kLeastHeight_px;
+  return sight.points >= kLeastPoints && sight.px.sizes().y() >= kLeastHeight_px;
 }
 
 }  // namespace
@@ -303,11 +290,7 @@ std::vector<PlannedMover> draw_movers(Kit& kit, const RoverPath& way, const Traf
   while (static_cast<int>(movers.size()) < count) {
     PlannedMover mover;
     const bool alike = !movers.empty() && kit.draw.chance(0.3);
-    if (alike) {
-      mover.thing = movers.back().thing;
-    } else {
-      mover.thing = make_thing(kit, kit.draw.pick(traffic.kinds));
-    }
+    mover.thing = alike ? movers.back().thing : make_thing(kit, kit.draw.pick(traffic.kinds));
     bool found = false;
     for (int i = 0; i < kTries && !found; ++i) {
       if (!planner.plan(mover) || !planner.is_free(mover, movers)) continue;
@@ -351,9 +334,8 @@ void add_movers(Kit& kit, const RoverPath& way, const std::vector<PlannedMover>&
       const Sight sight = look(kit, stand, box, boxes_of_others(kit, movers, i, stand.t_s));
       if (sight.before && sight.points > 0) kit.tag("mover_before_mover");
       if (!is_seen(sight)) continue;
-      if (sight.left < 0 || sight.right > camera.width_px) kit.tag("mover_cut");
-      if (sight.right - sight.left > camera.width_px ||
-          sight.bottom - sight.top > camera.height_px) {
+      if (sight.px.min().x() < 0 || sight.px.max().x() > camera.width_px) kit.tag("mover_cut");
+      if (sight.px.sizes().x() > camera.width_px || sight.px.sizes().y() > camera.height_px) {
         kit.tag("mover_larger_than_picture");
       }
     }

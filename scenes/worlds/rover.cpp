@@ -77,41 +77,25 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
                                 bool on_wheels) {
   const double speed = d.between(0.2, fastest_mps);
   EgoPhase first{.at_s = 0, .speed_mps = speed};
-  switch (kind) {
-    case Kind::stand:
-      first.speed_mps = 0;
-      return {first};
-    case Kind::crawl:
-      first.speed_mps = d.scaled(0.03, 0.15);
-      return {first};
-    case Kind::drive:
-      if (d.chance(0.15)) first.direction_rad = std::numbers::pi;  // backwards
-      return {first};
-    case Kind::bend:
-      first.yaw_rate_radps = d.either(3, 25) * kDegree;
-      return {first};
-    case Kind::spin:
-      first.speed_mps = 0;
-      first.yaw_rate_radps = d.either(4, 30) * kDegree;
-      return {first};
-    case Kind::aside:
-      if (!on_wheels) first.direction_rad = d.either(40, 140) * kDegree;
-      return {first};
-    case Kind::brake: {
-      EgoPhase second = first;
-      second.at_s = duration_s * d.between(0.3, 0.6);
-      first.acceleration_mps2 = d.chance(0.5) ? 0 : d.between(0, 0.4);
-      second.speed_mps = first.speed_mps + first.acceleration_mps2 * second.at_s;
-      second.acceleration_mps2 = -d.between(0.2, 1);
-      return {first, second};
-    }
-    case Kind::weave: {
-      first.yaw_rate_radps = d.either(3, 20) * kDegree;
-      EgoPhase second = first;
-      second.at_s = duration_s * d.between(0.3, 0.5);
-      second.yaw_rate_radps = -first.yaw_rate_radps * d.between(0.6, 1.3);
-      return {first, second};
-    }
+  if (kind == Kind::stand || kind == Kind::spin) first.speed_mps = 0;
+  if (kind == Kind::crawl) first.speed_mps = d.scaled(0.03, 0.15);
+  if (kind == Kind::drive && d.chance(0.15)) first.direction_rad = std::numbers::pi;  // backwards
+  if (kind == Kind::aside && !on_wheels) first.direction_rad = d.either(40, 140) * kDegree;
+  if (kind == Kind::bend) first.yaw_rate_radps = d.either(3, 25) * kDegree;
+  if (kind == Kind::spin) first.yaw_rate_radps = d.either(4, 30) * kDegree;
+  if (kind == Kind::weave) first.yaw_rate_radps = d.either(3, 20) * kDegree;
+  EgoPhase second = first;
+  if (kind == Kind::brake) {
+    second.at_s = duration_s * d.between(0.3, 0.6);
+    first.acceleration_mps2 = d.chance(0.5) ? 0 : d.between(0, 0.4);
+    second.speed_mps = first.speed_mps + first.acceleration_mps2 * second.at_s;
+    second.acceleration_mps2 = -d.between(0.2, 1);
+    return {first, second};
+  }
+  if (kind == Kind::weave) {
+    second.at_s = duration_s * d.between(0.3, 0.5);
+    second.yaw_rate_radps = -first.yaw_rate_radps * d.between(0.6, 1.3);
+    return {first, second};
   }
   return {first};
 }

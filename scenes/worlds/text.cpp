@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <filesystem>
 
 #include "scenarios/keys.h"
 #include "scenes/worlds/worlds.h"
@@ -19,8 +18,7 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
-template <class... Numbers>
-std::string numbers(Numbers... values) {
+std::string numbers(auto... values) {
   const std::array<std::string, sizeof...(values)> texts{number(values)...};
   return fmt::format("{}", fmt::join(texts, " "));
 }

@@ -106,8 +106,7 @@ void dirty(cv::Mat3b& picture, Draw& draw, int cells, double keep, double least,
 }
 
 /// Draws at all periodic copies of the position, so that the picture tiles.
-template <class DrawAt>
-void without_seam(int side, DrawAt draw_at) {
+void without_seam(int side, const auto& draw_at) {
   for (const int dy : {-side, 0, side}) {
     for (const int dx : {-side, 0, side}) draw_at(dx, dy);
   }

@@ -19,18 +19,13 @@ const std::vector<Style> kCloth{Style::plain, Style::stripes, Style::fractal, St
 const std::vector<Style> kLeaves{Style::foliage};
 const std::vector<Style> kWood{Style::wood};
 
+using Outline = std::vector<Vector2d>;
+
 Parts drum(Kit& k) {
   const double r = k.draw.between(0.15, 0.35), h = r * k.draw.between(2, 3.2);
-  return {k.turned({{{r, 0},
-                     {r, h * .32},
-                     {r * 1.04, h * .34},
-                     {r, h * .36},
-                     {r, h * .64},
-                     {r * 1.04, h * .66},
-                     {r, h * .68},
-                     {r, h}},
-                    {0, 0, 0},
-                    k.paint(kMetal)})};
+  const Outline side{{r, 0},       {r, h * .32},        {r * 1.04, h * .34}, {r, h * .36},
+                     {r, h * .64}, {r * 1.04, h * .66}, {r, h * .68},        {r, h}};
+  return {k.turned({side, {0, 0, 0}, k.paint(kMetal)})};
 }
 
 Parts ball(Kit& k) {
@@ -59,38 +54,37 @@ Parts person(Kit& k) {
   const double h = k.draw.between(1.5, 1.9), s = h / 1.75;
   const int coat = k.paint(kCloth), trousers = k.paint(kCloth), skin = k.plain({0.75, 0.58, 0.47});
   const double stride = k.draw.between(0.05, 0.28) * s, wide = k.draw.between(0.85, 1.2);
-  Parts parts{
-      k.bar({{stride, 0.09 * s, 0.06}, {0, 0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
-      k.bar({{-stride, -0.09 * s, 0.06}, {0, -0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
-      k.turned({{{0.16 * s * wide, 0},
-                 {0.19 * s * wide, 0.12 * s},
-                 {0.17 * s * wide, 0.3 * s},
-                 {0.22 * s * wide, 0.55 * s},
-                 {0.09 * s, 0.68 * s}},
-                {0, 0, 0.8 * s},
-                coat}),
-      k.bar({{0.12 * s, 0.25 * s * wide, 0.85 * s}, {0, 0.2 * s * wide, 1.38 * s}, 0.05 * s, coat}),
-      k.bar({{-0.12 * s, -0.25 * s * wide, 0.85 * s},
-             {0, -0.2 * s * wide, 1.38 * s},
-             0.05 * s,
-             coat}),
-      k.ball({{0.1 * s, 0.085 * s, 0.125 * s}, {0, 0, 1.62 * s}, skin}),
-      k.ball({{0.105 * s, 0.09 * s, 0.08 * s}, {-0.015 * s, 0, 1.69 * s}, k.plain()})};
+  const double hand = 0.25 * s * wide, shoulder = 0.2 * s * wide;  // from the middle
+  const Outline torso{{0.16 * s * wide, 0},
+                      {0.19 * s * wide, 0.12 * s},
+                      {0.17 * s * wide, 0.3 * s},
+                      {0.22 * s * wide, 0.55 * s},
+                      {0.09 * s, 0.68 * s}};
+  Parts parts{k.bar({{stride, 0.09 * s, 0.06}, {0, 0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
+              k.bar({{-stride, -0.09 * s, 0.06}, {0, -0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
+              k.turned({torso, {0, 0, 0.8 * s}, coat}),
+              k.bar({{0.12 * s, hand, 0.85 * s}, {0, shoulder, 1.38 * s}, 0.05 * s, coat}),
+              k.bar({{-0.12 * s, -hand, 0.85 * s}, {0, -shoulder, 1.38 * s}, 0.05 * s, coat}),
+              k.ball({{0.1 * s, 0.085 * s, 0.125 * s}, {0, 0, 1.62 * s}, skin}),
+              k.ball({{0.105 * s, 0.09 * s, 0.08 * s}, {-0.015 * s, 0, 1.69 * s}, k.plain()})};
   if (k.draw.chance(0.3)) {  // a carried object
     parts.push_back(k.block({{0.2 * s, 0.32 * s, 0.42 * s}, {-0.28 * s, 0, 0.95 * s}, k.paint()}));
   }
   return parts;
 }
 
+/// The corners of a rectangle about the origin.
+std::array<Vector2d, 4> corners(double half_x_m, double half_y_m) {
+  return corners_of({.half_m = {half_x_m, half_y_m}});
+}
+
 Parts on_wheels(Kit& k, Parts parts, double x, double y, double r, double width) {
   const int tyre = k.plain({0.1, 0.1, 0.11});
-  for (const double sx : {-1.0, 1.0}) {
-    for (const double sy : {-1.0, 1.0}) {
-      Part wheel = k.post({r, width, {0, 0, 0}, tyre});
-      wheel.position_m = {sx * x, sy * y, r};
-      wheel.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
-      parts.push_back(wheel);
-    }
+  for (const Vector2d& at : corners(x, y)) {
+    Part wheel = k.post({r, width, {0, 0, 0}, tyre});
+    wheel.position_m = {at.x(), at.y(), r};
+    wheel.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
+    parts.push_back(wheel);
   }
   return parts;
 }
@@ -98,13 +92,12 @@ Parts on_wheels(Kit& k, Parts parts, double x, double y, double r, double width)
 Parts cart(Kit& k) {
   const double l = k.draw.between(0.5, 1.3), w = l * k.draw.between(0.5, 0.8);
   const double r = k.draw.between(0.04, 0.1), h = k.draw.between(0.25, 0.9);
-  Parts parts{k.block({{l, w, 0.05}, {0, 0, 2 * r}, k.plain()}),
-              k.block({{l * .92, w * .92, h}, {0, 0, 2 * r + 0.05}, k.paint()})};
-  parts.push_back(
-      k.bar({{-l / 2, -w * .4, 2 * r}, {-l / 2 - 0.1, -w * .4, 1.0}, 0.015, k.plain()}));
-  parts.push_back(k.bar({{-l / 2, w * .4, 2 * r}, {-l / 2 - 0.1, w * .4, 1.0}, 0.015, k.plain()}));
-  parts.push_back(
-      k.bar({{-l / 2 - 0.1, -w * .4, 1.0}, {-l / 2 - 0.1, w * .4, 1.0}, 0.015, k.plain()}));
+  const double back = -l / 2 - 0.1;
+  const Parts parts{k.block({{l, w, 0.05}, {0, 0, 2 * r}, k.plain()}),
+                    k.block({{l * .92, w * .92, h}, {0, 0, 2 * r + 0.05}, k.paint()}),
+                    k.bar({{-l / 2, -w * .4, 2 * r}, {back, -w * .4, 1.0}, 0.015, k.plain()}),
+                    k.bar({{-l / 2, w * .4, 2 * r}, {back, w * .4, 1.0}, 0.015, k.plain()}),
+                    k.bar({{back, -w * .4, 1.0}, {back, w * .4, 1.0}, 0.015, k.plain()})};
   return on_wheels(k, parts, l * .38, w * .4, r, 0.03);
 }
 
@@ -115,26 +108,16 @@ Parts car(Kit& k) {
   const int body = k.draw.chance(0.75) ? k.plain() : k.paint({Style::worn, Style::lettering});
   const int glass = k.plain({0.1, 0.12, 0.14}), lamp = k.plain({0.9, 0.88, 0.8});
   const double sill = 0.22, bonnet = h * 0.58;
-  Parts parts{
-      k.slice({{{-l / 2, sill},
-                {l / 2, sill},
-                {l / 2, bonnet * .85},
-                {l * .25, bonnet},
-                {-l / 2, bonnet * 1.02}},
-               w,
-               {0, 0, 0},
-               body}),
-      k.slice({{{-l * .42, bonnet * .98}, {l * .27, bonnet * .98}, {l * .1, h}, {-l * .3, h}},
-               w * .86,
-               {0, 0, 0},
-               body}),
-      k.slice({{{-l * .37, bonnet * 1.04},
-                {l * .22, bonnet * 1.04},
-                {l * .09, h * .96},
-                {-l * .28, h * .96}},
-               w * .865,
-               {0, 0, 0},
-               glass})};
+  const Outline lower{{-l / 2, sill},
+                      {l / 2, sill},
+                      {l / 2, bonnet * .85},
+                      {l * .25, bonnet},
+                      {-l / 2, bonnet * 1.02}};
+  const Outline cabin{{-l * .42, bonnet * .98}, {l * .27, bonnet * .98}, {l * .1, h}, {-l * .3, h}};
+  const Outline windows{
+      {-l * .37, bonnet * 1.04}, {l * .22, bonnet * 1.04}, {l * .09, h * .96}, {-l * .28, h * .96}};
+  Parts parts{k.slice({lower, w, {0, 0, 0}, body}), k.slice({cabin, w * .86, {0, 0, 0}, body}),
+              k.slice({windows, w * .865, {0, 0, 0}, glass})};
   for (const double y : {-0.6, 0.6}) {
     parts.push_back(k.block({{0.02, 0.3, 0.12}, {l / 2, y, bonnet * .6}, lamp}));
     parts.push_back(
@@ -149,17 +132,13 @@ Parts van(Kit& k) {
   const double l = k.draw.between(4.4, 5.8), h = k.draw.between(1.9, 2.6), w = 1.95;
   const int body = k.paint({Style::lettering, Style::plain, Style::worn, Style::corrugated});
   const int glass = k.plain({0.1, 0.12, 0.14});
-  Parts parts{
-      k.block({{l * .72, w, h - 0.3}, {-l * .14, 0, 0.3}, body}),
-      k.slice(
-          {{{l * .22, 0.3}, {l / 2, 0.3}, {l / 2, h * .5}, {l * .38, h * .92}, {l * .22, h * .92}},
-           w * .96,
-           {0, 0, 0},
-           k.plain()}),
-      k.slice({{{l * .26, h * .52}, {l * .45, h * .52}, {l * .37, h * .86}, {l * .26, h * .86}},
-               w * .97,
-               {0, 0, 0},
-               glass})};
+  const Outline cab{
+      {l * .22, 0.3}, {l / 2, 0.3}, {l / 2, h * .5}, {l * .38, h * .92}, {l * .22, h * .92}};
+  const Outline window{
+      {l * .26, h * .52}, {l * .45, h * .52}, {l * .37, h * .86}, {l * .26, h * .86}};
+  const Parts parts{k.block({{l * .72, w, h - 0.3}, {-l * .14, 0, 0.3}, body}),
+                    k.slice({cab, w * .96, {0, 0, 0}, k.plain()}),
+                    k.slice({window, w * .97, {0, 0, 0}, glass})};
   return on_wheels(k, parts, l * .31, w / 2 - 0.09, 0.34, 0.22);
 }
 
@@ -168,22 +147,18 @@ Parts table(Kit& k) {
                h = k.draw.between(0.65, 0.8);
   const int top = k.paint(kWood), leg = k.plain();
   Parts parts{k.block({{l, w, 0.04}, {0, 0, h}, top})};
-  for (const double x : {-l / 2 + 0.05, l / 2 - 0.05}) {
-    for (const double y : {-w / 2 + 0.05, w / 2 - 0.05}) {
-      parts.push_back(k.post({0.022, h, {x, y, 0}, leg}));
-    }
+  for (const Vector2d& at : corners(l / 2 - 0.05, w / 2 - 0.05)) {
+    parts.push_back(k.post({0.022, h, {at.x(), at.y(), 0}, leg}));
   }
   for (int i = k.draw.whole(0, 4); i > 0; --i) {
     const Vector3d at{k.draw.between(-l * .4, l * .4), k.draw.between(-w * .35, w * .35), h + 0.04};
     const double s = k.draw.between(0.06, 0.2);
     if (k.draw.chance(0.6)) {
-      parts.push_back(k.block({{s, s * 1.4, s * k.draw.between(0.3, 1.6)},
-                               at,
-                               k.paint(kPrinted),
-                               k.draw.between(0, std::numbers::pi)}));
+      const Vector3d size{s, s * 1.4, s * k.draw.between(0.3, 1.6)};
+      parts.push_back(k.block({size, at, k.paint(kPrinted), k.draw.between(0, std::numbers::pi)}));
     } else {
-      parts.push_back(k.turned(
-          {{{s * .3, 0}, {s * .5, s * .5}, {s * .25, s}, {s * .3, s * 1.3}}, at, k.paint()}));
+      const Outline side{{s * .3, 0}, {s * .5, s * .5}, {s * .25, s}, {s * .3, s * 1.3}};
+      parts.push_back(k.turned({side, at, k.paint()}));
     }
   }
   return parts;
@@ -194,10 +169,8 @@ Parts chair(Kit& k) {
   const double w = k.draw.between(0.4, 0.5), h = k.draw.between(0.42, 0.48);
   Parts parts{k.block({{w, w, 0.04}, {0, 0, h}, wood}),
               k.block({{0.03, w, k.draw.between(0.25, 0.5)}, {-w / 2, 0, h + 0.08}, wood})};
-  for (const double x : {-w / 2 + 0.02, w / 2 - 0.02}) {
-    for (const double y : {-w / 2 + 0.02, w / 2 - 0.02}) {
-      parts.push_back(k.post({0.016, x < 0 ? h + 0.3 : h, {x, y, 0}, leg}));
-    }
+  for (const Vector2d& at : corners(w / 2 - 0.02, w / 2 - 0.02)) {
+    parts.push_back(k.post({0.016, at.x() < 0 ? h + 0.3 : h, {at.x(), at.y(), 0}, leg}));
   }
   return parts;
 }
@@ -221,18 +194,16 @@ Parts cupboard(Kit& k) {
 Parts bin(Kit& k) {
   const double r = k.draw.between(0.12, 0.3), h = k.draw.between(0.35, 1.0);
   const int m = k.paint(kMetal);
-  return {k.turned({{{r * .8, 0}, {r, h}, {r * 1.08, h}, {r * 1.08, h * 1.04}, {r * .3, h * 1.15}},
-                    {0, 0, 0},
-                    m})};
+  const Outline side{{r * .8, 0}, {r, h}, {r * 1.08, h}, {r * 1.08, h * 1.04}, {r * .3, h * 1.15}};
+  return {k.turned({side, {0, 0, 0}, m})};
 }
 
 Parts plant(Kit& k) {
   const double r = k.draw.between(0.1, 0.25), h = r * 1.6, crown = k.draw.between(0.2, 0.5);
-  return {k.turned({{{r * .7, 0}, {r, h}}, {0, 0, 0}, k.paint(kStone)}),
-          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.6)},
-                  0.15,
-                  {0, 0, h + crown * .8},
-                  k.surface(kLeaves)})};
+  const int pot = k.paint(kStone);
+  const Vector3d radii{crown, crown, crown * k.draw.between(0.8, 1.6)};
+  return {k.turned({{{r * .7, 0}, {r, h}}, {0, 0, 0}, pot}),
+          k.lump({radii, 0.15, {0, 0, h + crown * .8}, k.surface(kLeaves)})};
 }
 
 /// Randomly adds light and dark leaves that stand off a surface.
@@ -273,44 +244,38 @@ Parts tree(Kit& k) {
   const double crown = k.draw.between(0.8, 1.7);
   const Vector3d radii{crown, crown, crown * k.draw.between(0.8, 1.5)};
   const Vector3d middle{0, 0, h + crown * .6};
-  Parts parts{k.turned({{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}},
-                        {0, 0, 0},
-                        k.surface({Style::wood, Style::fractal})}),
+  const Outline side{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}};
+  const Vector3d bough_radii{crown * .7, crown * .7, crown * .6};
+  const Vector3d bough{crown * .5, crown * .3, h + crown * .2};
+  Parts parts{k.turned({side, {0, 0, 0}, k.surface({Style::wood, Style::fractal})}),
               k.lump({radii, 0.12, middle, k.surface(kLeaves)}),
-              k.lump({{crown * .7, crown * .7, crown * .6},
-                      0.15,
-                      {crown * .5, crown * .3, h + crown * .2},
-                      k.surface(kLeaves)})};
+              k.lump({bough_radii, 0.15, bough, k.surface(kLeaves)})};
   add_leaves(k, parts, middle, radii);
   return parts;
 }
 
 Parts rock(Kit& k) {
   const double r = k.draw.scaled(0.12, 0.6);
-  return {k.lump({{r, r * k.draw.between(0.6, 1), r * k.draw.between(0.5, 0.9)},
-                  0.12,
-                  {0, 0, r * .3},
-                  k.surface(kStone)})};
+  const Vector3d radii{r, r * k.draw.between(0.6, 1), r * k.draw.between(0.5, 0.9)};
+  return {k.lump({radii, 0.12, {0, 0, r * .3}, k.surface(kStone)})};
 }
 
 Parts pole(Kit& k) {
   k.tag("thin_pole");
   const double r = k.draw.between(0.012, 0.04), h = k.draw.between(1.4, 3.5);
-  Parts parts{
-      k.post({r, h, {0, 0, 0}, k.draw.chance(0.6) ? k.plain() : k.surface({Style::stripes})})};
-  parts.push_back(k.turned({{{0.16, 0}, {0.05, 0.05}}, {0, 0, 0}, k.plain()}));
-  return parts;
+  const int paint = k.draw.chance(0.6) ? k.plain() : k.surface({Style::stripes});
+  return {k.post({r, h, {0, 0, 0}, paint}),
+          k.turned({{{0.16, 0}, {0.05, 0.05}}, {0, 0, 0}, k.plain()})};
 }
 
 Parts sign(Kit& k) {
   k.tag("thin_pole");
   const double h = k.draw.between(1.3, 2.4), w = k.draw.between(0.35, 0.8);
-  Parts parts{k.post({0.025, h, {0, 0, 0}, k.plain({0.6, 0.6, 0.62})}),
-              k.turned({{{0.14, 0}, {0.05, 0.04}}, {0, 0, 0}, k.plain()}),
-              k.block({{0.02, w, w * k.draw.between(0.6, 1.2)},
-                       {0.035, 0, h - w * .7},
-                       k.surface({Style::lettering})})};
-  return parts;
+  return {k.post({0.025, h, {0, 0, 0}, k.plain({0.6, 0.6, 0.62})}),
+          k.turned({{{0.14, 0}, {0.05, 0.04}}, {0, 0, 0}, k.plain()}),
+          k.block({{0.02, w, w * k.draw.between(0.6, 1.2)},
+                   {0.035, 0, h - w * .7},
+                   k.surface({Style::lettering})})};
 }
 
 Parts lamp_post(Kit& k) {
@@ -382,23 +347,20 @@ Parts ladder(Kit& k) {
 Parts statue(Kit& k) {
   const double s = k.draw.between(0.5, 1);
   const int stone = k.paint(kStone);
-  return {k.block({{0.5 * s, 0.5 * s, 0.7 * s}, {0, 0, 0}, k.draw.chance(0.5) ? k.plain() : stone}),
-          k.turned({{{0.12 * s, 0},
+  const Outline body{{0.12 * s, 0},
                      {0.18 * s, 0.15 * s},
                      {0.1 * s, 0.4 * s},
                      {0.17 * s, 0.6 * s},
-                     {0.06 * s, 0.75 * s}},
-                    {0, 0, 0.7 * s},
-                    stone}),
+                     {0.06 * s, 0.75 * s}};
+  return {k.block({{0.5 * s, 0.5 * s, 0.7 * s}, {0, 0, 0}, k.draw.chance(0.5) ? k.plain() : stone}),
+          k.turned({body, {0, 0, 0.7 * s}, stone}),
           k.ball({{0.1 * s, 0.09 * s, 0.13 * s}, {0, 0, 1.55 * s}, stone})};
 }
 
 Parts sack(Kit& k) {
   const double r = k.draw.between(0.2, 0.4);
-  return {k.lump({{r, r * .7, r * .8},
-                  0.15,
-                  {0, 0, r * .65},
-                  k.paint({Style::plain, Style::fractal, Style::lettering})})};
+  const int cloth = k.paint({Style::plain, Style::fractal, Style::lettering});
+  return {k.lump({{r, r * .7, r * .8}, 0.15, {0, 0, r * .65}, cloth})};
 }
 
 Parts panel(Kit& k) {
@@ -424,12 +386,10 @@ Parts barrier(Kit& k) {
 /// A low robot with a mast, like another rover.
 Parts robot(Kit& k) {
   const double r = k.draw.between(0.18, 0.35), h = k.draw.between(0.15, 0.5);
-  Parts parts{
-      k.turned(
-          {{{r * .9, 0}, {r, 0.05}, {r, h}, {r * .8, h + 0.06}}, {0, 0, 0.03}, k.paint(kMetal)}),
-      k.post({0.02, k.draw.between(0.2, 0.9), {-r * .4, 0, h}, k.plain()})};
-  parts.push_back(k.block({{0.1, 0.14, 0.1}, {r * .3, 0, h + 0.09}, k.plain({0.1, 0.1, 0.12})}));
-  return parts;
+  const Outline side{{r * .9, 0}, {r, 0.05}, {r, h}, {r * .8, h + 0.06}};
+  return {k.turned({side, {0, 0, 0.03}, k.paint(kMetal)}),
+          k.post({0.02, k.draw.between(0.2, 0.9), {-r * .4, 0, h}, k.plain()}),
+          k.block({{0.1, 0.14, 0.1}, {r * .3, 0, h + 0.09}, k.plain({0.1, 0.1, 0.12})})};
 }
 
 /// A truck with mast and fork, sometimes loaded.
@@ -451,15 +411,13 @@ Parts forklift(Kit& k) {
 
 Parts bicycle(Kit& k) {
   const int frame = k.plain(), tyre = k.plain({0.12, 0.12, 0.12});
+  const auto rim = [](double x, int i) {
+    const double a = std::numbers::pi * i / 6;
+    return Vector3d(x + 0.32 * std::cos(a), 0, 0.34 + 0.32 * std::sin(a));
+  };
   Parts parts;
   for (const double x : {-0.5, 0.5}) {
-    for (int i = 0; i < 12; ++i) {
-      const double a = std::numbers::pi * i / 6, b = std::numbers::pi * (i + 1) / 6;
-      parts.push_back(k.bar({{x + 0.32 * std::cos(a), 0, 0.34 + 0.32 * std::sin(a)},
-                             {x + 0.32 * std::cos(b), 0, 0.34 + 0.32 * std::sin(b)},
-                             0.018,
-                             tyre}));
-    }
+    for (int i = 0; i < 12; ++i) parts.push_back(k.bar({rim(x, i), rim(x, i + 1), 0.018, tyre}));
   }
   parts.push_back(k.bar({{-0.5, 0, 0.34}, {-0.15, 0, 0.8}, 0.018, frame}));
   parts.push_back(k.bar({{-0.15, 0, 0.8}, {0.35, 0, 0.85}, 0.018, frame}));
@@ -481,11 +439,9 @@ Parts bicycle(Kit& k) {
 Parts load(Kit& k) {
   const double s = k.draw.between(0.3, 0.8), foot = k.draw.between(0.4, 1.3);
   const double hook = foot + s * .4;
+  const double rope = std::min(3.0, k.ceiling_m - hook - 0.02);
   return {k.block({{s, s, s * k.draw.between(0.5, 1)}, {0, 0, foot}, k.paint()}),
-          k.post({0.012,
-                  std::min(3.0, k.ceiling_m - hook - 0.02),
-                  {0, 0, hook},
-                  k.plain({0.2, 0.2, 0.2})})};
+          k.post({0.012, rope, {0, 0, hook}, k.plain({0.2, 0.2, 0.2})})};
 }
 
 Parts any_carton(Kit& k) {
@@ -570,10 +526,8 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack, double e
   const int upright = is_rack ? kit.plain({0.15, 0.25, 0.5}) : wood;
   Parts parts;
   const double post = is_rack ? 0.09 : 0.03;
-  for (const double x : {-size_m.x() / 2 + post / 2, size_m.x() / 2 - post / 2}) {
-    for (const double y : {-size_m.y() / 2 + post / 2, size_m.y() / 2 - post / 2}) {
-      parts.push_back(kit.block({{post, post, size_m.z()}, {x, y, 0}, upright}));
-    }
+  for (const Vector2d& at : corners(size_m.x() / 2 - post / 2, size_m.y() / 2 - post / 2)) {
+    parts.push_back(kit.block({{post, post, size_m.z()}, {at.x(), at.y(), 0}, upright}));
   }
   const double step = (size_m.z() - 0.1) / (boards - 1);
   for (int i = 0; i < boards; ++i) {
