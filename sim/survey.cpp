@@ -42,20 +42,14 @@ bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
   const mjModel& m = model.m();
   const Eigen::Vector3d p = model.geom_pose(geom).inverse() * point_W;
   const Eigen::Map<const Eigen::Vector3d> size(m.geom_size + 3 * geom);
-  switch (m.geom_type[geom]) {
-    case mjGEOM_BOX:
-      return (p.array().abs() < size.array()).all();
-    case mjGEOM_SPHERE:
-      return p.norm() < size[0];
-    case mjGEOM_ELLIPSOID:
-      return p.cwiseQuotient(size).norm() < 1;
-    case mjGEOM_CYLINDER:
-      return p.head<2>().norm() < size[0] && std::abs(p.z()) < size[1];
-    case mjGEOM_CAPSULE:
-      return (p - Eigen::Vector3d(0, 0, std::clamp(p.z(), -size[1], size[1]))).norm() < size[0];
-    default:
-      return false;
-  }
+  const int type = m.geom_type[geom];
+  if (type == mjGEOM_BOX) return (p.array().abs() < size.array()).all();
+  if (type == mjGEOM_SPHERE) return p.norm() < size[0];
+  if (type == mjGEOM_ELLIPSOID) return p.cwiseQuotient(size).norm() < 1;
+  const bool is_beside = std::abs(p.z()) < size[1];
+  if (type == mjGEOM_CYLINDER) return p.head<2>().norm() < size[0] && is_beside;
+  const double along = std::clamp(p.z(), -size[1], size[1]);
+  return type == mjGEOM_CAPSULE && (p - Eigen::Vector3d(0, 0, along)).norm() < size[0];
 }
 
 /// Appends a line for each geom or object that the camera newly entered.

@@ -75,15 +75,9 @@ void Rectifier::map_by_points() {
 
 /// Share of the pinhole's pixels that lie within the original picture.
 double Rectifier::covered() const {
-  int inside = 0;
-  for (int y = 0; y < map_x_.rows; ++y) {
-    for (int x = 0; x < map_x_.cols; ++x) {
-      const float u = map_x_.at<float>(y, x), v = map_y_.at<float>(y, x);
-      inside += u >= 0 && v >= 0 && u <= static_cast<float>(map_x_.cols - 1) &&
-                v <= static_cast<float>(map_x_.rows - 1);
-    }
-  }
-  return inside / static_cast<double>(map_x_.total());
+  const cv::Mat inside =
+      (map_x_ >= 0) & (map_y_ >= 0) & (map_x_ <= map_x_.cols - 1) & (map_y_ <= map_x_.rows - 1);
+  return cv::countNonZero(inside) / static_cast<double>(map_x_.total());
 }
 
 std::vector<cv::Point2f> Rectifier::straight(const std::vector<cv::Point2f>& bent) const {

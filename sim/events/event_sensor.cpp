@@ -41,12 +41,11 @@ void EventSensor::sample(const cv::Mat1f& light, std::int64_t t_ns, std::vector<
   cv::add(light, dark, log_);
   cv::log(log_, log_);
   if (!has_seen_) {
-    std::transform(log_.begin(), log_.end(), pixels_.begin(), pixels_.begin(),
-                   [](float l, Pixel pixel) {
-                     pixel.start += l;
-                     pixel.seen = l;
-                     return pixel;
-                   });
+    auto l = log_.begin();
+    for (Pixel& pixel : pixels_) {
+      pixel.seen = *l++;
+      pixel.start += pixel.seen;
+    }
     has_seen_ = true;
     first_ns_ = last_ns_ = t_ns;
     return;

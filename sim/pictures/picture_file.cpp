@@ -11,7 +11,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <new>
 #include <string>
 
@@ -144,31 +143,25 @@ Size webp_size(std::string_view bytes) {
 class [[nodiscard]] Overheard {
  public:
   Overheard() : lock_(stderr_mutex()) {
-    before_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    if (before_ < 0) return;  // stderr is closed, or too many files are open: capture nothing
-    heard_ = ::memfd_create("overheard", MFD_CLOEXEC);
-    if (heard_ >= 0) ::dup2(heard_, STDERR_FILENO);
+    before_ = input::Descriptor(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+    if (!before_.is_open()) return;  // stderr is closed, or files are too many: capture nothing
+    heard_ = input::Descriptor(::memfd_create("overheard", MFD_CLOEXEC));
+    if (heard_.is_open()) ::dup2(heard_.get(), STDERR_FILENO);
   }
   ~Overheard() {
-    if (heard_ >= 0) {
-      ::dup2(before_, STDERR_FILENO);
-      ::close(heard_);
-    }
-    if (before_ >= 0) ::close(before_);
+    if (heard_.is_open()) ::dup2(before_.get(), STDERR_FILENO);
   }
-  Overheard(const Overheard&) = delete;
-  Overheard& operator=(const Overheard&) = delete;
 
   std::string text() const {
     std::string heard(1000, '\0');
-    const ssize_t got = heard_ < 0 ? 0 : ::pread(heard_, heard.data(), heard.size(), 0);
+    const ssize_t got = heard_.is_open() ? ::pread(heard_.get(), heard.data(), heard.size(), 0) : 0;
     heard.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     return heard;
   }
 
  private:
   std::lock_guard<std::mutex> lock_;
-  int before_ = -1, heard_ = -1;
+  input::Descriptor before_, heard_;
 };
 
 /// libjpeg invents data that it cannot read, and reports it. Excess bytes at the end do no harm.

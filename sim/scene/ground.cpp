@@ -17,8 +17,7 @@ constexpr int kWaves = 24;
 constexpr double kLongestOverShortest = 3;
 constexpr double kPointsAWave = 8;
 constexpr double kMostPoints = 400;  // along either side
-constexpr double kHighest = kHighestGround;
-constexpr double kBase_m = 0.1;  // of solid ground below the lowest point
+constexpr double kBase_m = 0.1;      // of solid ground below the lowest point
 
 int points_along(double length_m, double wavelength_m) {
   return static_cast<int>(std::clamp(length_m / wavelength_m * kPointsAWave, 4.0, kMostPoints));
@@ -78,7 +77,7 @@ void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
   const std::vector<float> flat(static_cast<std::size_t>(field.nrow * field.ncol));
   mjs_setFloat(field.userdata, flat.data(), static_cast<int>(flat.size()));
   const Eigen::Vector2d half = ground.size_m / 2;
-  Eigen::Map<Eigen::Vector4d>(field.size) << half, kHighest * ground.roughness_m, kBase_m;
+  Eigen::Map<Eigen::Vector4d>(field.size) << half, kHighestGround * ground.roughness_m, kBase_m;
 
   mjsBody& world = *mjs_findBody(&scene, "world");
   const std::string material = material_of_floor(world);
@@ -106,8 +105,9 @@ void raise_ground(Model& model, const scenario::RoughGround& ground, std::uint64
       const double edge_x = std::min(x, ground.size_m.x() - x);
       const double edge_y = std::min(y, ground.size_m.y() - y);
       const double window = rise(edge_x, ground.wavelength_m) * rise(edge_y, ground.wavelength_m);
-      const double deviations = std::clamp(waves.at(x, y) + kHighest / 2, 0.0, kHighest);
-      *height = static_cast<float>(window * deviations / kHighest);
+      const double deviations =
+          std::clamp(waves.at(x, y) + kHighestGround / 2, 0.0, kHighestGround);
+      *height = static_cast<float>(window * deviations / kHighestGround);
     }
   }
 }

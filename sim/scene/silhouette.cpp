@@ -65,8 +65,7 @@ Eigen::Matrix3Xd mesh(const mjModel& m, int mesh) {
 using Polygon = std::vector<cv::Point2f>;
 
 /// Calls `span(y, first, last)` for each row of pixels whose centres a convex polygon covers.
-template <typename Span>
-void rasterise(const Polygon& polygon, Span span) {
+void rasterise(const Polygon& polygon, const auto& span) {
   float top = std::numeric_limits<float>::max();
   float bottom = std::numeric_limits<float>::lowest();
   for (const auto& p : polygon) {
@@ -95,22 +94,14 @@ void rasterise(const Polygon& polygon, Span span) {
 
 Eigen::Matrix3Xd geom_hull(const mjModel& m, int geom) {
   const double* size = m.geom_size + 3 * geom;
-  switch (m.geom_type[geom]) {
-    case mjGEOM_BOX:
-      return box(size);
-    case mjGEOM_SPHERE:
-      return ellipsoid(Eigen::Vector3d::Constant(size[0]), 0);
-    case mjGEOM_ELLIPSOID:
-      return ellipsoid({size[0], size[1], size[2]}, 0);
-    case mjGEOM_CAPSULE:
-      return ellipsoid(Eigen::Vector3d::Constant(size[0]), size[1]);
-    case mjGEOM_CYLINDER:
-      return cylinder(size[0], size[1]);
-    case mjGEOM_MESH:
-      return mesh(m, m.geom_dataid[geom]);
-    default:
-      throw MujocoError("planes and height fields belong to the setting, not to a body");
-  }
+  const int type = m.geom_type[geom];
+  if (type == mjGEOM_BOX) return box(size);
+  if (type == mjGEOM_SPHERE) return ellipsoid(Eigen::Vector3d::Constant(size[0]), 0);
+  if (type == mjGEOM_ELLIPSOID) return ellipsoid({size[0], size[1], size[2]}, 0);
+  if (type == mjGEOM_CAPSULE) return ellipsoid(Eigen::Vector3d::Constant(size[0]), size[1]);
+  if (type == mjGEOM_CYLINDER) return cylinder(size[0], size[1]);
+  if (type == mjGEOM_MESH) return mesh(m, m.geom_dataid[geom]);
+  throw MujocoError("planes and height fields belong to the setting, not to a body");
 }
 
 double silhouette_px(const Pinhole& camera, const Pose& T_CO, const ConvexParts& parts,

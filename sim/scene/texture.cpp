@@ -148,8 +148,7 @@ void paint_bricks(Brush& b) {
     for (int column = -1; column < kAcross; ++column) {
       const double x = column / double(kAcross) + shift;
       const double v = b.between(70, 120);
-      const Colour c(cv::saturate_cast<uchar>(v * 1.25), cv::saturate_cast<uchar>(v * 0.8),
-                     cv::saturate_cast<uchar>(v * 0.7));
+      const Colour c = cv::Vec3d(v * 1.25, v * 0.8, v * 0.7);
       b.rectangle(std::max(0.0, x + kJoint), row / double(kUp) + kJoint, x + 1.0 / kAcross - kJoint,
                   (row + 1.0) / kUp - kJoint, c);
     }
@@ -253,9 +252,7 @@ void paint_plinth(Brush& b) {
   const double top = b.between(0.26, 0.34);
   b.rectangle(0.24, top, 0.76, top + b.between(0.2, 0.26), b.grey(200, 220, 8));
   b.rectangle(0.34, top + 0.07, 0.66, top + 0.12, b.grey(40, 60, 4));
-  for (const double x : {0.18, 0.42, 0.66}) {
-    b.rectangle(x, 0.68, x + 0.14, 0.78, b.grey(45, 70, 5));
-  }
+  for (const double x : {0.18, 0.42, 0.66}) b.rectangle(x, 0.68, x + 0.14, 0.78, b.grey(45, 70, 5));
 }
 
 /// Carved and inlaid stone: rows of dark lozenges and triangles on a light ground, a band below.
@@ -306,9 +303,7 @@ void paint_ground(Brush& b) {
   }
   for (int y = 0; y < b.height(); ++y) {
     for (int x = 0; x < b.width(); ++x) {
-      const double v = brightness(y, x);
-      b.at(y, x) = {cv::saturate_cast<uchar>(base[0] + v), cv::saturate_cast<uchar>(base[1] + v),
-                    cv::saturate_cast<uchar>(base[2] + v)};
+      b.at(y, x) = cv::Vec3d(base) + cv::Vec3d::all(brightness(y, x));
     }
   }
 }

@@ -99,19 +99,13 @@ void run(const std::function<void()>& action, Report& report) {
 
 std::string crash_of(int status, const TrialBounds& bounds) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  switch (signal) {
-    case 0:
-      return "exit code " + std::to_string(WEXITSTATUS(status));
-    case SIGXCPU:
-      return std::to_string(bounds.processor_s) + " s of processor time";
-    case SIGALRM:
-      return std::to_string(bounds.wall_s) + " s";
-    case SIGKILL:  // from the kernel's out-of-memory killer; nobody else knows the child
-      return "memory";
-    default:
-      const char* name = ::sigabbrev_np(signal);
-      return std::string("signal ") + (name ? name : std::to_string(signal));
-  }
+  if (signal == 0) return "exit code " + std::to_string(WEXITSTATUS(status));
+  if (signal == SIGXCPU) return std::to_string(bounds.processor_s) + " s of processor time";
+  if (signal == SIGALRM) return std::to_string(bounds.wall_s) + " s";
+  // from the kernel's out-of-memory killer; nobody else knows the child
+  if (signal == SIGKILL) return "memory";
+  const char* name = ::sigabbrev_np(signal);
+  return std::string("signal ") + (name ? name : std::to_string(signal));
 }
 
 }  // namespace

@@ -23,25 +23,16 @@ Box box_in(const Model& model, int geom, const Eigen::Matrix3Xd& hull) {
   const double* s = model.m().geom_size + 3 * geom;
   Box box{model.geom_pose(geom), {s[0], s[1], s[2]}};
   const double square = std::numbers::sqrt2 / 2, cube = std::numbers::inv_sqrt3;
-  switch (model.m().geom_type[geom]) {
-    case mjGEOM_SPHERE:
-      box.half_m.setConstant(cube * s[0]);
-      break;
-    case mjGEOM_ELLIPSOID:
-      box.half_m *= cube;
-      break;
-    case mjGEOM_CAPSULE:
-    case mjGEOM_CYLINDER:
-      box.half_m = {square * s[0], square * s[0], s[1]};
-      break;
-    case mjGEOM_MESH: {
-      const Vector3d low = hull.rowwise().minCoeff(), high = hull.rowwise().maxCoeff();
-      box.T_WX.p = box.T_WX * Vector3d(0.5 * (low + high));
-      box.half_m = 0.5 * (high - low);
-      break;
-    }
-    default:
-      break;
+  const int type = model.m().geom_type[geom];
+  if (type == mjGEOM_SPHERE) box.half_m.setConstant(cube * s[0]);
+  if (type == mjGEOM_ELLIPSOID) box.half_m *= cube;
+  if (type == mjGEOM_CAPSULE || type == mjGEOM_CYLINDER) {
+    box.half_m = {square * s[0], square * s[0], s[1]};
+  }
+  if (type == mjGEOM_MESH) {
+    const Vector3d low = hull.rowwise().minCoeff(), high = hull.rowwise().maxCoeff();
+    box.T_WX.p = box.T_WX * Vector3d(0.5 * (low + high));
+    box.half_m = 0.5 * (high - low);
   }
   return box;
 }
