@@ -145,10 +145,9 @@ Observer::Drawing Observer::draw(bool has_truth) {
 /// Calls `on_point(parts_px)` for every eighth pixel of a drawing, with the lengths of the ways
 /// that its point takes through the picture from each of the snapshots to the next. \param
 /// reference the snapshot of the drawing.
-template <class OnPoint>
 void Observer::visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
                           const cv::Mat1f& depth_m, const cv::Mat1i& geom,
-                          OnPoint&& on_point) const {
+                          const auto& on_point) const {
   constexpr int kStride_px = 8;
   const Optics& optics = calibration_.optics;
   // from the camera of the drawing to that at each time, for each object

@@ -46,9 +46,8 @@ class Observer {
   };
   Drawing draw(bool has_truth);
   Drawing draw_through_shutter(const FrameState& frame, int index);
-  template <class OnPoint>
   void visit_ways(const std::vector<const Snapshot*>& at, const Snapshot& reference,
-                  const cv::Mat1f& depth_m, const cv::Mat1i& geom, OnPoint&& on_point) const;
+                  const cv::Mat1f& depth_m, const cv::Mat1i& geom, const auto& on_point) const;
   double shift_px(const FrameState& frame, const cv::Mat1f& depth_m, const cv::Mat1i& geom) const;
   void sense_events(const FrameState& frame, Observation& o);
   void develop(const cv::Mat3f& light, Observation& o);

@@ -1,7 +1,5 @@
 #include "sim/base/optics.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

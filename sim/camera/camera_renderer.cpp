@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -35,8 +35,6 @@ class CameraRenderer {
   CameraRenderer(Model& model, int camera, const View& colour, const View& truth,
                  const GeomGroups& groups = kUsualGroups, bool has_shadows = false);
   ~CameraRenderer();
-  CameraRenderer(const CameraRenderer&) = delete;
-  CameraRenderer& operator=(const CameraRenderer&) = delete;
 
   /// Takes the poses of the model's last forward pass for the following renders.
   void update();

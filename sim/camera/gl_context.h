@@ -19,8 +19,6 @@ class GlContext {
   /// \throws std::runtime_error with a remedy.
   GlContext();
   ~GlContext();
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
 
   /// Makes the context current again, after another context was. \throws std::runtime_error
   void make_current();

@@ -130,9 +130,7 @@ cv::Mat1i pixels_of(const Optics& optics, const View& view) {
       const Eigen::Vector2d px = optics.project(ray.homogeneous());
       if (!px.allFinite()) continue;
       const cv::Point pixel(cvRound(px.x()), cvRound(px.y()));
-      if (cv::Rect({}, size_px).contains(pixel)) {
-        pixels(y, x) = pixel.y * size_px.width + pixel.x;
-      }
+      if (cv::Rect({}, size_px).contains(pixel)) pixels(y, x) = pixel.y * size_px.width + pixel.x;
     }
   }
   return pixels;
@@ -189,12 +187,8 @@ LensRenderer::Sampling LensRenderer::sampling_of(const Optics& optics, int sampl
 
 LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, int samples,
                            const GeomGroups& groups, bool has_shadows)
-    : LensRenderer(model, camera, optics, groups, has_shadows, sampling_of(optics, samples)) {}
-
-LensRenderer::LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-                           bool has_shadows, Sampling sampling)
     : size_px_(optics.size_px()),
-      sampling_(std::move(sampling)),
+      sampling_(sampling_of(optics, samples)),
       renderer_(model, camera, sampling_.view, truth_view(optics, sampling_.view), groups,
                 has_shadows) {}
 

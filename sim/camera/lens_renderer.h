@@ -58,8 +58,6 @@ class LensRenderer {
     cv::Mat2f middles;  ///< place in the view of each pixel's middle; empty for a pinhole
   };
   static Sampling sampling_of(const Optics& optics, int samples);
-  LensRenderer(Model& model, int camera, const Optics& optics, const GeomGroups& groups,
-               bool has_shadows, Sampling sampling);
   void mean_of_samples(const cv::Mat4w& codes, cv::Mat3f& light) const;
 
   cv::Size size_px_;

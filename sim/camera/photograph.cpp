@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "sim/base/random.h"
 #include "sim/camera/linear_light.h"
 #include "sim/camera/point_spread.h"
 #include "sim/pictures/picture_file.h"

@@ -23,9 +23,8 @@ std::vector<float> weights_of(double sigma_px) {
 }
 
 /// to = w0 of + sum of w_k (before_k + after_k), for `count` floats.
-template <class Beside>
 void weigh(const std::vector<float>& weights, const float* of, int count, float* to,
-           Beside&& beside) {
+           const auto& beside) {
   for (int i = 0; i < count; ++i) to[i] = weights[0] * of[i];
   for (int k = 1; k < static_cast<int>(weights.size()); ++k) {
     const float w = weights[static_cast<std::size_t>(k)];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/scene/model.h"
 #include "sim/scene/silhouette.h"
 
 namespace lcs::sim {

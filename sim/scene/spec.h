@@ -71,15 +71,13 @@ mjsElement* find(const mjSpec& spec, mjtObj type, std::string_view name);
 /// Calls `visit(element)` for the elements of a type: all of a model, or those in a body, and in
 /// its descendants if `deep`. `visit` may delete the element.
 ///@{
-template <typename Visit>
-void for_each(const mjSpec& spec, mjtObj type, const Visit& visit) {
+void for_each(const mjSpec& spec, mjtObj type, const auto& visit) {
   for (mjsElement *e = mjs_firstElement(&spec, type), *next = nullptr; e; e = next) {
     next = mjs_nextElement(&spec, e);
     visit(e);
   }
 }
-template <typename Visit>
-void for_each_in(const mjsBody& body, mjtObj type, bool deep, const Visit& visit) {
+void for_each_in(const mjsBody& body, mjtObj type, bool deep, const auto& visit) {
   for (mjsElement *e = mjs_firstChild(&body, type, deep), *next = nullptr; e; e = next) {
     next = mjs_nextChild(&body, e, deep);
     visit(e);

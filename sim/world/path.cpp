@@ -1,10 +1,7 @@
 #include "sim/world/path.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "sim/base/rotation.h"

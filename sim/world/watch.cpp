@@ -130,16 +130,14 @@ Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objec
 void Watch::add_solid(const Model& model, Solid solid) {
   const mjModel& m = model.m();
   const Pose T_BW = model.body_pose(solid.body).inverse();
-  Vector3d low = Vector3d::Zero(), high = Vector3d::Zero();
+  Eigen::AlignedBox3d box;
   for (const int geom : solid.geoms) {
     const Vector3d p = T_BW * model.geom_pose(geom).p;
-    const bool is_first = geom == solid.geoms.front();
     const auto reach = Vector3d::Constant(m.geom_rbound[geom]);
-    low = is_first ? Vector3d(p - reach) : Vector3d(low.cwiseMin(p - reach));
-    high = is_first ? Vector3d(p + reach) : Vector3d(high.cwiseMax(p + reach));
+    box.extend(p - reach).extend(p + reach);
     solid_of_geom_[static_cast<std::size_t>(geom)] = static_cast<int>(solids_.size());
   }
-  solid.centre_B = 0.5 * (low + high);
+  if (!box.isEmpty()) solid.centre_B = box.center();
   double foot_m = std::numeric_limits<double>::infinity();
   for (const int geom : solid.geoms) {
     const Pose T_WG = model.geom_pose(geom);
@@ -193,8 +191,7 @@ Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid&
 }
 
 /// Calls `found(pair, place)` for each new overlap of the rover or an actor with another solid.
-template <typename Found>
-void Watch::find_meetings(const Model& model, const Found& found) {
+void Watch::find_meetings(const Model& model, const auto& found) {
   const auto is_traveller = [&](std::size_t i) {
     return solids_[i].kind == Kind::rover || solids_[i].kind == Kind::actor;
   };

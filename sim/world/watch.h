@@ -87,8 +87,7 @@ class Watch {
   void add_solid(const Model& model, Solid solid);
   bool is_step(const Model& model, const Solid& who, const Solid& what, int geom);
   Overlap::Place meeting(const Model& model, const Solid& who, const Solid& what);
-  template <typename Found>
-  void find_meetings(const Model& model, const Found& found);
+  void find_meetings(const Model& model, const auto& found);
   bool has_moved(const Model& model);
   void note_contacts(const Model& model, std::int64_t t_ns);
   void note_meeting(const Pair& pair, const Eigen::Vector3d& point, std::int64_t t_ns);

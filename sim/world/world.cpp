@@ -19,7 +19,6 @@
 #include "sim/pictures/picture_file.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
-#include "sim/scene/model.h"
 #include "sim/scene/texture.h"
 #include "sim/scene/trial.h"
 
@@ -169,8 +168,7 @@ bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
 }
 
 /// \param visit is called with the beginning and the size of each array.
-template <class Visit>
-void visit_poses(const mjModel& m, mjData& d, Visit&& visit) {
+void visit_poses(const mjModel& m, mjData& d, const auto& visit) {
   visit(d.xpos, 3 * m.nbody);
   visit(d.xmat, 9 * m.nbody);
   visit(d.geom_xpos, 3 * m.ngeom);
@@ -427,8 +425,7 @@ void World::move_actors() {
   }
 }
 
-template <typename Action>
-void World::guarded(Action action) const {
+void World::guarded(const auto& action) const {
   std::string problem;
   try {
     action();

@@ -141,8 +141,7 @@ class World {
   void move_actors();
   void forward();
   void step_to(std::int64_t t_ns);
-  template <typename Action>
-  void guarded(Action action) const;
+  void guarded(const auto& action) const;
   std::int64_t next_event_ns(std::int64_t until_ns) const;
   ImuSample ideal_reading();
   void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
