@@ -24,8 +24,7 @@ Compared compare(const CompareRequest& request) {
   if (request.allow_missing) compared.comparison.missing.clear();
   if (compared.comparison.scenarios.empty()) {
     throw std::runtime_error(
-        fmt::format("{} and {} have no scenario in common; give two suites of the same "
-                    "scenarios",
+        fmt::format("{} and {} have no scenario in common; give two suites of the same scenarios",
                     request.before, request.after));
   }
   const bool is_text_asked = !request.markdown.empty();  // which shows the events

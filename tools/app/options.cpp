@@ -31,8 +31,8 @@ void add_detector(Options& all, DetectorChoice& detector) {
   }
   all.add("--detector", "NAME", &detector.name,
           about +
-              "\nlcs:lab    the filter with the paper's preset, or another, without the "
-              "scenario's filter settings\nFor a detector of yours: its name in the results");
+              "\nlcs:lab    the filter with the paper's preset, or another, without the scenario's "
+              "filter settings\nFor a detector of yours: its name in the results");
   all.add("--detector-command", "COMMAND", &detector.command,
           "A detector of yours, as 'python3 mine.py': the program reads each frame from its "
           "standard input and answers with a line (tools/comparators/PROTOCOL.md)");
@@ -70,11 +70,10 @@ void add_results(Options& all, bool& video, bool& events) {
 void add_keep(Options& all, output::Keep& keep) {
   const auto read = [&keep](const std::string& word) { keep = output::keep_of(word); };
   const auto words = [&keep] { return Texts{std::string(word_of(keep))}; };
-  all.push_back(
-      {"--keep", "WHAT",
-       "The files of each run: figures; events: also a row a frame and the events; all: also "
-       "layers, truth and pictures, for --recorded",
-       Kind::text, false, read, words});
+  all.push_back({"--keep", "WHAT",
+                 "The files of each run: figures; events: also a row a frame and the events; all: "
+                 "also layers, truth and pictures, for --recorded",
+                 Kind::text, false, read, words});
 }
 
 /// \param excludes name of an option that 2 threads do not go with.
@@ -260,12 +259,12 @@ Options options_of(SuiteRequest& request) {
   all.add("--seeds", "N", &request.seeds, "Runs of each scenario; 3 if not given, of worlds 1",
           {.high = kMostSeeds});
   add_detector(all, request.detector);
-  add_recorded(all, request.recorded,
-               "Take corners, motion and truth from an earlier suite instead of simulating, which "
-               "takes seconds",
-               request.detector, "DIR",
-               ", a folder of CSV files (tools/recording/DETECTIONS.md), SCENARIO/seed-N.csv for "
-               "each run");
+  add_recorded(
+      all, request.recorded,
+      "Take corners, motion and truth from an earlier suite instead of simulating, which takes "
+      "seconds",
+      request.detector, "DIR",
+      ", a folder of CSV files (tools/recording/DETECTIONS.md), SCENARIO/seed-N.csv for each run");
   all.add("--beside", "NAME", &request.beside,
           "Run this detector too on the same frames, as klt or lcs:lab, and print F1 beside each "
           "other; may be repeated");

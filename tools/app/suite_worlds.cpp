@@ -1,7 +1,5 @@
 #include "tools/app/suite_worlds.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -94,8 +92,8 @@ std::vector<fs::path> draw_worlds(const std::vector<worlds::Kept>& chosen, std::
     if (fs::exists(world) && !fs::is_empty(world)) {
       const std::string what = files::first_difference(world);
       if (what.empty()) continue;
-      throw files::OutputError(fmt::format(
-          "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
+      throw files::OutputError("{}: {}; remove that folder, so that the world is drawn anew",
+                               world.string(), what);
     }
     fs::create_directories(world.parent_path());
     commands.push_back(arguments_of(

@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
-#include <functional>
 #include <string_view>
 #include <system_error>
 #include <utility>

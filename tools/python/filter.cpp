@@ -98,9 +98,8 @@ py::list outlines(const Result& result) {
 void bind_result(py::module_& module) {
   class_of<Result, std::shared_ptr<Result>>(
       module, "Result",
-      "The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; "
-      "places are in\n"
-      "pixels, angles in rad, speeds in px/s.")
+      R"(The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; places are in
+pixels, angles in rad, speeds in px/s.)")
       .def_property_readonly(
           "verdicts", [](const py::object& self) { return codes(self, &FrameResult::verdicts); },
           "N uint8, a Verdict for each corner.")
@@ -113,10 +112,8 @@ void bind_result(py::module_& module) {
           [](const Result& r) {
             return both(r.said.layers.normal_edges, r.said.layers.rebel_edges);
           },
-          "Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, "
-          "corner (index of\n"
-          "its corner, -1: none), circle (index among the circles of its kind, -1: none), "
-          "...")
+          R"(Tracked corners, the normal ones first: id, rebel, x, y, trust, age, speed, angle, corner (index of
+its corner, -1: none), circle (index among the circles of its kind, -1: none), ...)")
       .def_property_readonly(
           "circles",
           [](const Result& r) {
@@ -129,10 +126,10 @@ void bind_result(py::module_& module) {
           "rebel_circles, ...")
       .def_property_readonly("boxes", &boxes,
                              "M x 4 float64: left, top, right, bottom of the squares, pixel edges.")
-      .def_property_readonly("outlines", &outlines,
-                             "For each square K x 2 float64: x, y of the convex hull of its edges, "
-                             "clockwise in the picture;\n"
-                             "empty with the presets lab and cars.")
+      .def_property_readonly(
+          "outlines", &outlines,
+          R"(For each square K x 2 float64: x, y of the convex hull of its edges, clockwise in the picture;
+empty with the presets lab and cars.)")
       .def_property_readonly(
           "ignored", [](const Result& r) { return rows(r.said.paper.ignored); },
           "Regions psi, whose corners were ignored: shape (1: circle, 2: rectangle), x, y, size_x, "
@@ -151,12 +148,12 @@ void bind_filter(py::module_& module) {
       "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
       .def(py::init(&of_scenario), py::arg("scenario"),
            "With the scenario's camera, preset and settings.")
-      .def(py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
-           py::arg("set") = py::none(),
-           "preset: default, lab or cars. set: parameters that replace the preset's, by the keys "
-           "of\n"
-           "filter/parameters.cpp: {\"circle.gap\": 0.3}; angles in degrees.\n"
-           "Raises Error for an unknown preset, key or value, ValueError for an impossible camera.")
+      .def(
+          py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
+          py::arg("set") = py::none(),
+          R"(preset: default, lab or cars. set: parameters that replace the preset's, by the keys of
+filter/parameters.cpp: {"circle.gap": 0.3}; angles in degrees.
+Raises Error for an unknown preset, key or value, ValueError for an impossible camera.)")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
            py::kw_only(), py::arg("picture") = py::none(),
            R"(Processes the next frame.

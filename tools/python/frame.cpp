@@ -75,15 +75,14 @@ void bind_motion(py::module_& module) {
       module, "Motion",
       "How the camera moved from the last frame to this one. Camera frame: x right, y down, z\n"
       "forward.")
-      .def(py::init(&motion_of), py::kw_only(), py::arg("dt"), py::arg("rotation") = py::none(),
-           py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
-           py::arg("up") = py::none(), py::arg("height") = py::none(), py::arg("unseen_turn") = 0.0,
-           py::arg("velocity_sigma") = 0.0,
-           "dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its "
-           "frame of now;\n"
-           "angular_velocity 3, rad/s, from the rotation where not given; up and height: the "
-           "ground, see\n"
-           "there; unseen_turn in rad, velocity_sigma in m/s.")
+      .def(
+          py::init(&motion_of), py::kw_only(), py::arg("dt"), py::arg("rotation") = py::none(),
+          py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
+          py::arg("up") = py::none(), py::arg("height") = py::none(), py::arg("unseen_turn") = 0.0,
+          py::arg("velocity_sigma") = 0.0,
+          R"(dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its frame of now;
+angular_velocity 3, rad/s, from the rotation where not given; up and height: the ground, see
+there; unseen_turn in rad, velocity_sigma in m/s.)")
       .def_static("between", &motion_between, py::arg("T_WC_before"), py::arg("T_WC_now"),
                   py::arg("dt"), "Of two poses of the camera, 4 x 4, that are dt seconds apart.")
       .def_readonly("dt", &EgoMotion::dt_s, "Time since the last frame, s; 0 in the first one.")
@@ -99,10 +98,9 @@ void bind_motion(py::module_& module) {
       .def_property_readonly(
           "angular_velocity", [](const EgoMotion& m) { return copy(m.w_C_radps); },
           "3 float64, rad/s: mean body rate of the camera.")
-      .def_readonly(
-          "unseen_turn", &EgoMotion::unseen_turn_rad,
-          "rad: standard deviation of the rotation's error while gyro readings are missing; else "
-          "0.")
+      .def_readonly("unseen_turn", &EgoMotion::unseen_turn_rad,
+                    "rad: standard deviation of the rotation's error while gyro readings are "
+                    "missing; else 0.")
       .def_readonly("velocity_sigma", &EgoMotion::velocity_sigma_mps,
                     "m/s: standard deviation of the velocity's error; 0 if unknown.")
       .def_property_readonly(
@@ -118,10 +116,10 @@ void bind_motion(py::module_& module) {
             return m.ground ? std::optional(m.ground->height_m) : std::nullopt;
           },
           "m: of the camera above the ground; None if unknown.")
-      .def_property_readonly("usable", &is_usable,
-                             "Whether a filter can predict from the last frame by it. If not, the "
-                             "filter starts anew.\n"
-                             "False for the first frame.")
+      .def_property_readonly(
+          "usable", &is_usable,
+          R"(Whether a filter can predict from the last frame by it. If not, the filter starts anew.
+False for the first frame.)")
       .def("__repr__", [](const EgoMotion& m) {
         return fmt::format("<lcs.Motion: {} s, {:.3f} m/s, {:.3f} rad/s{}>", m.dt_s,
                            m.v_C_mps.norm(), m.w_C_radps.norm(),
@@ -199,9 +197,8 @@ py::array odometry(const Frame& frame) {
 void bind_seen(py::module_& module) {
   class_of<Frame, std::shared_ptr<Frame>>(
       module, "Frame",
-      "The data of the sensors, and apart from them the truth. Arrays are read-only and keep their "
-      "values\n"
-      "when the simulation continues; arrays of pictures are views.")
+      R"(The data of the sensors, and apart from them the truth. Arrays are read-only and keep their values
+when the simulation continues; arrays of pictures are views.)")
       .def_property_readonly(
           "index", [](const Frame& f) { return f.seen.record.index; }, "From 0.")
       .def_property_readonly(
@@ -226,18 +223,16 @@ void bind_seen(py::module_& module) {
                              "N x 32 uint8: the appearance of each corner, by the bits of ORB.")
       .def_property_readonly(
           "motion", [](const Frame& f) { return f.seen.record.motion; },
-          "Motion since the last frame as detectors get it: by IMU and odometry with their errors, "
-          "or as the\n"
-          "scenario's ego_motion says.")
+          R"(Motion since the last frame as detectors get it: by IMU and odometry with their errors, or as the
+scenario's ego_motion says.)")
       .def_property_readonly(
           "imu", &imu,
           "Readings since the last frame, fields t (s), gyro (3, rad/s), accel (3, m/s^2), in the\n"
           "IMU's frame; empty for a recorded frame.")
       .def_property_readonly(
           "odometry", &odometry,
-          "Readings since the last frame, fields t (s), velocity (3, m/s, of the rover in its "
-          "frame: x forward,\n"
-          "z up), yaw_rate (rad/s, by the wheels; nan if they do not measure it).")
+          R"(Readings since the last frame, fields t (s), velocity (3, m/s, of the rover in its frame: x forward,
+z up), yaw_rate (rad/s, by the wheels; nan if they do not measure it).)")
       .def_property_readonly(
           "truth", [](const Frame& f) { return Truth{f.shared_from_this()}; },
           "The truth of the frame; detectors must not use it.")
@@ -284,10 +279,10 @@ py::array object_boxes(const Truth& truth) {
 }
 
 void bind_truth(py::module_& module) {
-  class_of<Truth>(module, "Truth",
-                  "The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame "
-                  "has only labels;\n"
-                  "its motion, depth, object_ids and poses raise ValueError.")
+  class_of<Truth>(
+      module, "Truth",
+      R"(The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame has only labels;
+its motion, depth, object_ids and poses raise ValueError.)")
       .def_property_readonly(
           "motion",
           [](const Truth& t) {
@@ -300,18 +295,16 @@ void bind_truth(py::module_& module) {
           "N uint8, a Label for each of the frame's corners.")
       .def_property_readonly(
           "corners", [](const Truth& t) { return rows(t.frame->seen.record.corner_truth); },
-          "A row for each of the frame's corners: label, radial, outline, object (its id; 0: the "
-          "fixed world,\n"
-          "-1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,\n"
-          "static_motion_y (px: the same if the point were fixed).")
+          R"(A row for each of the frame's corners: label, radial, outline, object (its id; 0: the fixed world,
+-1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,
+static_motion_y (px: the same if the point were fixed).)")
       .def("of", &truth_of_points, py::arg("points"),
            "The rows of `corners` for other points, N x 2 in pixels, such as corners of your own "
            "detector.")
       .def_property_readonly(
           "objects", [](const Truth& t) { return rows(t.frame->seen.record.object_truth); },
-          "A row for each visible object: object (its id), left, top, right, bottom (pixel edges "
-          "of its\n"
-          "visible part), visible_px, visible_fraction, moving.")
+          R"(A row for each visible object: object (its id), left, top, right, bottom (pixel edges of its
+visible part), visible_px, visible_fraction, moving.)")
       .def_property_readonly("boxes", &object_boxes,
                              "M x 4 float64: left, top, right, bottom of `objects`, pixel edges.")
       .def_property_readonly(

@@ -142,12 +142,12 @@ set: values that replace the file's, as in lcs run --set: {"ego.speed": "0.7 m/s
 seed: replaces the file's.
 Raises Error with file, line, problem and remedy. Warns of settings of the filter that have no
 effect.)")
-      .def_static("from_yaml", &from_yaml, py::arg("text"), py::kw_only(),
-                  py::arg("file") = std::filesystem::path("scenario.yaml"),
-                  py::arg("set") = py::none(), py::arg("seed") = py::none(),
-                  "A scenario from YAML text. file: a path that gives the name, and the folder "
-                  "from which relative paths\n"
-                  "begin; it need not exist.")
+      .def_static(
+          "from_yaml", &from_yaml, py::arg("text"), py::kw_only(),
+          py::arg("file") = std::filesystem::path("scenario.yaml"), py::arg("set") = py::none(),
+          py::arg("seed") = py::none(),
+          R"(A scenario from YAML text. file: a path that gives the name, and the folder from which relative paths
+begin; it need not exist.)")
       .def_property_readonly(
           "name", [](const Scenario& s) { return s.full.name; }, "The file's stem.")
       .def_property_readonly("file", [](const Scenario& s) { return s.full.file; })

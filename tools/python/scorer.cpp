@@ -263,21 +263,17 @@ class Scorer {
 
 void bind_scorer(py::module_& module) {
   class_of<Detections>(module, "Detections", "The answer of your own detector to a frame.")
-      .def(py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
-           py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
-           py::arg("circles") = py::none(), py::arg("masks") = py::none(),
-           "rebels: N bool, True for corners of the frame that move by themselves; None: no "
-           "verdicts.\n"
-           "boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has "
-           "left l and\n"
-           "right r. ids: M whole numbers from 0, which stay with their objects from frame to "
-           "frame.\n"
-           "masks: in place of boxes, M x H x W bool: the pixels of each object.\n"
-           "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
-           "counted.\n"
-           "Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks "
-           "places and the\n"
-           "size of masks against the camera.");
+      .def(
+          py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
+          py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
+          py::arg("circles") = py::none(), py::arg("masks") = py::none(),
+          R"(rebels: N bool, True for corners of the frame that move by themselves; None: no verdicts.
+boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has left l and
+right r. ids: M whole numbers from 0, which stay with their objects from frame to frame.
+masks: in place of boxes, M x H x W bool: the pixels of each object.
+circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are counted.
+Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks places and the
+size of masks against the camera.)");
   // Lambdas with references, because with member functions pybind11 would accept None as self.
   class_of<Scorer>(module, "Scorer",
                    "Scores a run's frames, one after another, without keeping their pictures.")
@@ -286,17 +282,13 @@ void bind_scorer(py::module_& module) {
           "add",
           [](Scorer& scorer, const Frame& frame, const Answer& said) { scorer.add(frame, said); },
           py::arg("frame"), py::arg("said"),
-          "said: a Result of the filter or of a Detector, Detections, or N bool, True for rebels "
-          "among the\n"
-          "frame's corners. Give the frames in order, from the first on, each once. A call that "
-          "raises adds\n"
-          "nothing. Raises ValueError for places outside of the picture "
-          "(tools/recording/DETECTIONS.md).")
+          R"(said: a Result of the filter or of a Detector, Detections, or N bool, True for rebels among the
+frame's corners. Give the frames in order, from the first on, each once. A call that raises adds
+nothing. Raises ValueError for places outside of the picture (tools/recording/DETECTIONS.md).)")
       .def(
           "metrics", [](Scorer& scorer) { return scorer.metrics(); },
-          "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
-          "Times and sizes\n"
-          "are known for the filter only.")
+          R"(All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. Times and sizes
+are known for the filter only.)")
       .def_property_readonly(
           "warnings", [](Scorer& scorer) { return scorer.warnings(); },
           "Problems of the run so far, a line each, as lcs run prints them.");

@@ -96,17 +96,16 @@ class WorldsPage : public TextPage {
   }
 
   void head(const std::string& about) {
-    add("<header>\n<h1>Worlds</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> worlds</span>"
-        "<span><b>{}</b> drawn again</span><span>{}</span>",
+    add("<header>\n<h1>Worlds</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> "
+        "worlds</span><span><b>{}</b> drawn again</span><span>{}</span>",
         about, all_.size(), suite::drawn_again(suite_), suite_.version);
     for (const std::string& set : suite_.sets) add("<span><code>{}</code></span>", set);
     add("<span><a href=\"{0}\">{0}</a></span></div>\n", kReportFile);
-    add("<p class=\"small\">Pictures: first, middle and last frame, with the truth's boxes: "
-        "<b class=\"moves\">moves</b>, <b class=\"stands\">stands</b>. Plan from above, as drawn: "
-        "<b class=\"rover\">the rover's way</b> and what it sees at first and at last, "
-        "<b class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
-    add("<h2>{} by family</h2>\n<div "
-        "class=\"scroll\"><table>\n<thead><tr><th>family</th>",
+    add("<p class=\"small\">Pictures: first, middle and last frame, with the truth's boxes: <b "
+        "class=\"moves\">moves</b>, <b class=\"stands\">stands</b>. Plan from above, as drawn: <b "
+        "class=\"rover\">the rover's way</b> and what it sees at first and at last, <b "
+        "class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
+    add("<h2>{} by family</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>family</th>",
         scoring::metric(scoring::kF1).label);
     for (const SuiteResult* by : detectors_) add("<th>{}</th>", by->detector);
     add("</tr></thead>\n<tbody>\n");
@@ -164,8 +163,7 @@ class WorldsPage : public TextPage {
     add("</h3>\n");
     if (const fs::path sheet = sheet_path(world); fs::exists(folder_ / sheet)) {
       add("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: three pictures and the plan\" "
-          "width=\"1920\" "
-          "height=\"360\" loading=\"lazy\"/></a>\n",
+          "width=\"1920\" height=\"360\" loading=\"lazy\"/></a>\n",
           suite::address_of(sheet.generic_string()), world.name);
     }
     add("<div class=\"beside\">\n");

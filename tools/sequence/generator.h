@@ -2,7 +2,6 @@
 /// Writes a scenario as a sequence into a folder: simulates, checks and writes frame by frame.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>

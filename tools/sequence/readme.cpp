@@ -113,8 +113,7 @@ std::string rig_text(const SequenceInfo& info) {
       "cam0 are in a folder of its\nname, as `cam1/depth/<k>.png` beside `depth/<k>.png`, except "
       "in `mav0/` and `kitti/`, which have a place for each.\n`kalibr/camchain.yaml` has their "
       "poses to each other, `lcs.json` that in the rover (`T_BC`).\n\n| folder | name | camera "
-      "|\n|---|---|"
-      "---|\n";
+      "|\n|---|---|---|\n";
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::string lens = camera_text(info.rig[i]->optics.lens());
     std::ranges::replace(lens, '\n', ' ');

@@ -454,13 +454,12 @@ std::string text_of(Finding finding, const Comparison& comparison, int failed_cr
       if (comparison.missing.empty()) {
         parts.emplace_back("no main figure is in both suites");
       } else {
-        parts.push_back(
-            fmt::format("missing or other frames than before: {}{}; --allow-missing "
-                        "judges the others",
-                        comparison.missing.front(),
-                        comparison.missing.size() > 1
-                            ? fmt::format(" and {} more", comparison.missing.size() - 1)
-                            : ""));
+        parts.push_back(fmt::format(
+            "missing or other frames than before: {}{}; --allow-missing judges the others",
+            comparison.missing.front(),
+            comparison.missing.size() > 1
+                ? fmt::format(" and {} more", comparison.missing.size() - 1)
+                : ""));
       }
       break;
     case Finding::uncertain:

@@ -73,10 +73,8 @@ void Trials::read(const std::filesystem::path& suite) {
       recording::Recording recording =
           recording::without_detections(recording::read_recording(folder));
       if (const std::string why = why_of_test(scenario, recording); !why.empty()) {
-        refuse(
-            fmt::format("is of the split test ({}), by which nothing is chosen; name a suite of "
-                        "train",
-                        why));
+        refuse(fmt::format(
+            "is of the split test ({}), by which nothing is chosen; name a suite of train", why));
       }
       if (recording.truth == recording::Truth::unknown) refuse("has no truth to learn from");
       if (!recording.camera) refuse("does not say what camera it was; run it again");
