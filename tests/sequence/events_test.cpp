@@ -12,7 +12,7 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/process/python.h"
+#include "tools/process/child.h"
 #include "tools/recording/recording_io.h"
 
 namespace lcs::sequence {

@@ -5,12 +5,14 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -154,6 +156,21 @@ pid_t start_child(const char* program, std::span<const std::string> arguments,
   const pid_t child = Starter::of_this_process().start(start);
   if (options.own_group) ::setpgid(child, child);  // set in both processes, to avoid a race
   return child;
+}
+
+PythonEnd run_python(const std::filesystem::path& script, std::span<const std::string> arguments,
+                     int out) {
+  const char* python = std::getenv("LCS_PYTHON");
+  std::vector<std::string> words{"env", python ? python : "python3", script.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const MemoryFile said("memfd_create"), wrong("memfd_create");
+  const pid_t child = start_child(
+      "/usr/bin/env", words, {.out = out < 0 ? said.descriptor() : out, .err = wrong.descriptor()},
+      {.when_parent_ends = SIGTERM});
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, said.text(), wrong.text()};
 }
 
 }  // namespace lcs::process

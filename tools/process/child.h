@@ -1,10 +1,12 @@
 /// \file
-/// Starts a child process with its own standard files. It does not outlive this process.
+/// Starts a child process with its own standard files, and by Python a script that ships with the
+/// program. It does not outlive this process.
 #pragma once
 
 #include <sys/types.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
@@ -45,5 +47,16 @@ struct ChildOptions {
 /// \return the child's process id. \throws std::system_error
 pid_t start_child(const char* program, std::span<const std::string> arguments,
                   const StandardFiles& files, const ChildOptions& options);
+
+struct PythonEnd {
+  bool is_fine = false;  ///< it exited with 0
+  std::string out, err;  ///< its texts
+};
+
+/// Runs a script to its end by the Python that the environment's LCS_PYTHON names, or by python3.
+/// \param out a file descriptor for its standard output; below 0: `PythonEnd::out`.
+/// \throws std::system_error
+PythonEnd run_python(const std::filesystem::path& script, std::span<const std::string> arguments,
+                     int out = -1);
 
 }  // namespace lcs::process

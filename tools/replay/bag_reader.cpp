@@ -14,7 +14,7 @@
 #include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
 #include "tools/files/json_node.h"
-#include "tools/process/python.h"
+#include "tools/process/child.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -7,7 +7,7 @@
 
 #include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
-#include "tools/process/python.h"
+#include "tools/process/child.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
