@@ -20,7 +20,7 @@
 #include "tools/files/written.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/sequence/manifest.h"
+#include "tools/sequence/sequence_folder.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::test {

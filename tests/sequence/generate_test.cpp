@@ -28,7 +28,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/csv.h"
 #include "tools/recording/recording_io.h"
-#include "tools/sequence/manifest.h"
+#include "tools/sequence/sequence_folder.h"
 #include "tools/sequence/true_flow.h"
 #include "tools/sequence/writer.h"
 

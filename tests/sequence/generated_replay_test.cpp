@@ -14,8 +14,8 @@
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/sequence/manifest.h"
 #include "tools/sequence/replay_settings.h"
+#include "tools/sequence/sequence_folder.h"
 
 namespace lcs::sequence {
 namespace {

@@ -1,10 +1,9 @@
 /// \file
-/// Optical flow in the formats of KITTI and Middlebury, and depth maps in KITTI's.
+/// Optical flow and depth in KITTI's formats.
 #pragma once
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <string>
 
 namespace lcs::sequence {
 
@@ -13,9 +12,6 @@ namespace lcs::sequence {
 inline constexpr float kKittiFlowScale = 64;
 inline constexpr float kKittiFlowZero = 32768;
 ///@}
-
-/// Middlebury's code for unknown flow: any value beyond 1e9.
-inline constexpr float kMiddleburyUnknown = 1e10F;
 
 /// Channels u, v, valid, in this order; all 0 if invalid or too large for the format.
 inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
@@ -30,15 +26,6 @@ inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
   return {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
 }
 
-/// The motion of each pixel in KITTI's encoding.
-cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid);
-
-/// \return the bytes of a .flo file.
-std::string middlebury_flow(const cv::Mat2f& motion_px);
-
 inline constexpr float kKittiDepthScale = 256;  ///< codes per metre
-
-/// Rounds to the nearest 1/256 m; 0 means no depth: the sky, and anything beyond 255.99 m.
-cv::Mat1w kitti_depth(const cv::Mat1f& depth_m);
 
 }  // namespace lcs::sequence

@@ -26,6 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr input::FileKind kManifestDocument{
+    4 * input::kGibibyte,  // one file of each kind per frame, for a million frames
+    "choose another folder with --out, or remove this one to make the sequence anew"};
+
 constexpr const char* kFrames = "frames-";
 constexpr const char* kSign = "# Written by `lcs generate`: the frames that are finished";
 constexpr const char* kRemedy = "remove this file to have its frames made again";
@@ -54,6 +58,41 @@ std::string own_name() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("{}-{}", host.data(), ::getpid());
+}
+
+std::string manifest_text(const files::Provenance& plan, const Agreements& checks,
+                          std::vector<FileRecord> files) {
+  std::ranges::sort(files, {}, &FileRecord::path);
+  files::Json manifest;
+  manifest["plan"] = plan.json();
+  for (const auto& [name, agreement] : checks) {
+    manifest["checks"][name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
+  }
+  for (const FileRecord& file : files) {
+    manifest["files"][file.path] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
+  }
+  return files::json_text(manifest, 1) + "\n";
+}
+
+/// The provenance in a manifest, or in a file of its own. \throws input::Error
+files::Provenance provenance_in(const fs::path& file) {
+  return files::read_json(file, kManifestDocument, [&](const files::JsonNode& node) {
+    const bool is_manifest = file.filename() == kManifestFile;
+    return files::Provenance::from(is_manifest ? node["plan"].json() : node.json());
+  });
+}
+
+/// The paths of the files of a finished sequence, without the manifest. \throws input::Error, also
+/// for a path that leads out of the sequence.
+std::vector<std::string> files_in_manifest(const fs::path& manifest) {
+  std::vector<std::string> paths;
+  files::read_json(manifest, kManifestDocument, [&](const files::JsonNode& node) {
+    node["files"].each_entry([&](const std::string& path, const files::JsonNode& record) {
+      record.require(files::is_inner(path), "of a file inside of the sequence");
+      paths.push_back(path);
+    });
+  });
+  return paths;
 }
 
 }  // namespace

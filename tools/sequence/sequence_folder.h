@@ -4,8 +4,12 @@
 /// by which work goes on after it was stopped, and by which several processes share a sequence.
 /// TARGET.unfinished is kept from the first finished frame on: a sequence that fails before leaves
 /// nothing.
+///
+/// `manifest.json`: the inputs and the generator of a sequence, and the SHA-256 of each of its
+/// files. It is written last.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -15,13 +19,31 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/input/input_file.h"
 #include "tools/files/journal.h"
 #include "tools/files/output.h"
 #include "tools/files/provenance.h"
-#include "tools/sequence/manifest.h"
+#include "tools/sequence/self_check.h"
 #include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
+
+inline constexpr const char* kManifestFile = "manifest.json";
+
+struct FileRecord {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+/// Agreements by the name of what was compared, as "flow_px".
+using Agreements = std::map<std::string, Agreement>;
+
+/// The bytes of a file of a sequence. \throws input::Error
+inline std::string read_file(const std::filesystem::path& path) {
+  // the longest is a table of all frames
+  return input::read_file(path, {16 * input::kGibibyte, "generate the sequence again"});
+}
 
 /// A finished frame.
 struct FrameEntry {

@@ -1,5 +1,5 @@
 /// \file
-/// The writers, one for each format and each in its own file.
+/// The writers, one for each format; those of like formats share a file.
 #pragma once
 
 #include <array>
