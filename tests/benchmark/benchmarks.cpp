@@ -28,7 +28,7 @@
 #include "tests/benchmark/stream.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/comparators/klt.h"
+#include "tools/comparators/flow_detectors.h"
 
 namespace lcs::test {
 namespace {

@@ -14,10 +14,8 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/comparators/detectors.h"
-#include "tools/comparators/dis.h"
 #include "tools/comparators/epipolar.h"
-#include "tools/comparators/homography.h"
-#include "tools/comparators/klt.h"
+#include "tools/comparators/flow_detectors.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
 

@@ -10,9 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/comparators/dis.h"
-#include "tools/comparators/homography.h"
-#include "tools/comparators/klt.h"
+#include "tools/comparators/flow_detectors.h"
 #include "tools/recording/detections.h"
 #include "tools/recording/recording_io.h"
 
