@@ -1,4 +1,4 @@
-#include "tools/scoring/region.h"
+#include "tools/scoring/score_squares.h"
 
 #include <gtest/gtest.h>
 

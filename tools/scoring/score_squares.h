@@ -1,5 +1,6 @@
 /// \file
-/// Scores how well squares cover the visible objects.
+/// Scores how well squares cover the visible objects: by boxes, and by the pixels that an object or
+/// a square covers.
 #pragma once
 
 #include <array>
@@ -9,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "sim/truth/mask.h"
+#include "tools/recording/box.h"
 #include "tools/recording/recording.h"
 #include "tools/scoring/statistics.h"
 
@@ -96,5 +99,30 @@ class SquareScorer {
   SquareScore::Masks masks_;
   bool are_masks_known_ = true;
 };
+
+/// Pixels of one column, [top, bottom).
+struct Stretch {
+  int column = 0, top = 0, bottom = 0;
+};
+
+/// A set of pixels. The stretches are ordered by column, then by row, and do not touch.
+struct Region {
+  std::vector<Stretch> stretches;
+  std::int64_t pixels = 0;
+};
+
+Region region_of(const sim::Mask& mask);
+
+/// The pixels whose centre lies inside or within 1e-6 px of the rim. A polygon that is not convex
+/// covers each column from its highest to its lowest point. Pixels beyond 2^15 are left out.
+///@{
+Region region_of(const Outline& outline);
+Region region_of(const recording::Box& box);
+///@}
+
+/// The region of a square: its mask, otherwise its outline, otherwise its box.
+Region region_of(const Square& square, const recording::SquareMasks& masks);
+
+double intersection_over_union(const Region& a, const Region& b);
 
 }  // namespace lcs::scoring
