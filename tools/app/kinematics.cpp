@@ -6,7 +6,6 @@
 #include "tools/app/how_made.h"
 #include "tools/files/output.h"
 #include "tools/kinematics/study.h"
-#include "tools/kinematics/study_files.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::app {

@@ -1,11 +1,14 @@
 /// \file
 /// The answer of a study: for each part of the model its figures beside the theoretical ones, and
-/// whether it is within the tolerance.
+/// whether it is within the tolerance. A study as files has the answer, a CSV file for each
+/// experiment, and one HTML page with plots.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tools/files/output.h"
 #include "tools/kinematics/study.h"
 
 namespace lcs::kinematics {
@@ -36,5 +39,11 @@ std::string bottom_line(const StudyConfig& config, const std::vector<Statement>&
 
 /// A readable text with a heading.
 std::string text_of(const StudyConfig& config, const std::vector<Statement>& statements);
+
+/// All files that `write_study` may write.
+files::ResultNames study_files();
+
+/// \throws files::OutputError
+void write_study(const std::filesystem::path& folder, const Study& study);
 
 }  // namespace lcs::kinematics

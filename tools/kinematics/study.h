@@ -136,10 +136,6 @@ struct NamedImu {
 /// The scenario's own IMU first, then the other presets.
 std::vector<NamedImu> imus(const StudyConfig& config);
 
-/// The configured scenario with another IMU. Odometry is the scenario's own, or else the default.
-scenario::Scenario with_imu(const StudyConfig& config, const scenario::ImuNoise& noise,
-                            bool odometry);
-
 inline constexpr double kImuDrive_s = 10;  ///< from a known start
 
 struct ImuRow {

@@ -1,4 +1,3 @@
-#include "tools/kinematics/study_files.h"
 
 #include <fmt/format.h>
 
