@@ -6,7 +6,6 @@
 
 #include "tools/app/detector_choice.h"
 #include "tools/bench/timed.h"
-#include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/guard.h"
 #include "tools/python/type.h"

@@ -1,4 +1,4 @@
-#include "tools/python/filter.h"
+#include "tools/python/frame.h"
 
 #include <pybind11/stl.h>
 

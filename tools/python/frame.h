@@ -1,5 +1,6 @@
 /// \file
-/// The frames of a scenario, one at a time: the bench's own loop up to the detector's step.
+/// The frames of a scenario, one at a time: the bench's own loop up to the detector's step;
+/// and a detector's result for a frame.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,9 +9,11 @@
 #include <optional>
 #include <thread>
 
+#include "filter/types/frame_result.h"
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
 #include "tools/python/scenario.h"
+#include "tools/recording/recording.h"
 
 namespace lcs::python {
 
@@ -59,6 +62,16 @@ class Simulation {
   std::unique_ptr<bench::FrameSource> source_;   ///< null after the last frame
   bench::SimulatedFrames* simulated_ = nullptr;  ///< `source_`, if it simulates
   std::thread::id thread_ = std::this_thread::get_id();
+};
+
+/// A detector's result for one frame. Immutable, because NumPy arrays are views of it.
+struct Result {
+  FrameResult said;
+  double step_ms = 0;  ///< duration of the detector's step
+  recording::DetectorInfo detector = {};
+  double recording::FrameTimes::*step_time = &recording::FrameTimes::filter_ms;  ///< null: none
+  bool wants_signatures = true;
+  recording::SquareMasks masks = {};
 };
 
 }  // namespace lcs::python

@@ -12,7 +12,6 @@
 
 #include "tools/bench/detector.h"
 #include "tools/python/arrays.h"
-#include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/type.h"
 #include "tools/recording/frame_detections.h"
