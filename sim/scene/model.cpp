@@ -26,7 +26,7 @@ void on_error(const char* message) {
     std::snprintf(error_message.data(), error_message.size(), "%s", message);
     std::longjmp(*call_in_progress, 1);  // NOLINT(cert-err52-cpp): over C frames alone
   }
-  constexpr int kError = 2;  // as tools/lcs/exit_codes.h
+  constexpr int kError = 2;  // as tools/lcs/command_line.h
   std::fprintf(stderr, "error of MuJoCo: %s; please report it with the scenario\n", message);
   std::_Exit(kError);
 }

@@ -14,7 +14,6 @@
 #include "tools/files/output_file.h"
 #include "tools/output/video.h"
 #include "tools/report/page_writer.h"
-#include "tools/report/worlds_page.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
 

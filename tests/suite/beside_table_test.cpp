@@ -1,4 +1,4 @@
-#include "tools/suite/beside_table.h"
+#include "tools/suite/tables.h"
 
 #include <gtest/gtest.h>
 

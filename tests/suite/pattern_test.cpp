@@ -1,4 +1,4 @@
-#include "tools/suite/pattern.h"
+#include "tools/suite/plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/suite/shard.h"
+#include "tools/suite/parts.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 
 #include "tests/tools/refusal.h"
 #include "tests/tools/suites.h"
-#include "tools/suite/merge.h"
 
 namespace lcs::suite {
 namespace {

@@ -15,7 +15,6 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/app/generate.h"
 #include "tools/app/kinematics.h"
-#include "tools/app/merge.h"
 #include "tools/app/replay.h"
 #include "tools/app/run.h"
 #include "tools/app/suite.h"

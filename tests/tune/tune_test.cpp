@@ -22,7 +22,6 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output_file.h"
 #include "tools/suite/suite_result.h"
-#include "tools/tune/evaluations.h"
 #include "tools/tune/search.h"
 #include "tools/tune/trials.h"
 

@@ -8,7 +8,7 @@
 #include "tools/app/suite_end.h"
 #include "tools/files/output.h"
 #include "tools/suite/merge_request.h"
-#include "tools/suite/pattern.h"
+#include "tools/suite/plan.h"
 
 namespace lcs::app {
 

@@ -19,7 +19,7 @@
 #include "tools/recording/warnings.h"
 #include "tools/sequence/writer.h"
 #include "tools/suite/child_process.h"
-#include "tools/suite/shard.h"
+#include "tools/suite/parts.h"
 
 namespace lcs::app {
 namespace {

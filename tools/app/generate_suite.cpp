@@ -5,8 +5,8 @@
 
 #include "tools/app/generate.h"
 #include "tools/suite/child_process.h"
+#include "tools/suite/parts.h"
 #include "tools/suite/plan.h"
-#include "tools/suite/shard.h"
 
 namespace lcs::app {
 namespace {

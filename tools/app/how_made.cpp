@@ -6,8 +6,13 @@
 #include <chrono>
 #include <ctime>
 #include <opencv2/core/utility.hpp>
+#include <regex>
+#include <stdexcept>
+#include <string_view>
 
-#include "tools/app/version.h"
+#include "scenarios/input/sha256.h"
+#include "scenarios/shipped.h"
+#include "tools/app/commit.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 
@@ -22,7 +27,34 @@ struct Start {
 };
 Start request_start;
 
+/// Whether the commit alone says what this program does: it is known, and no file was changed
+/// since.
+bool is_of_a_commit() {
+  const std::string_view commit = LCS_COMMIT;
+  return commit != "unknown" && commit.find(',') == commit.npos;
+}
+
 }  // namespace
+
+std::string version_text() {
+  const sim::Versions versions = sim::versions();
+  return fmt::format("lcs {}\nMuJoCo {}\n{}\nOpenCV {}", program_text(), versions.mujoco,
+                     versions.gl_renderer, cv::getVersionString());
+}
+
+std::string version_line() {
+  return std::regex_replace(version_text(), std::regex("\n"), ", ");
+}
+
+std::string program_sha256() {
+  const auto digest = input::sha256_of_file(std::filesystem::canonical(scenario::program()));
+  if (!digest) throw std::runtime_error("the program cannot be read; install it again");
+  return *digest;
+}
+
+std::string program_text() {
+  return fmt::format("{} ({})", LCS_VERSION, LCS_COMMIT);
+}
 
 void note_start() {
   request_start = {};

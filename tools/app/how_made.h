@@ -1,5 +1,5 @@
 /// \file
-/// `run.json` in a folder of results: how it was made.
+/// `run.json` in a folder of results: how it was made; and `lcs --version`.
 #pragma once
 
 #include <filesystem>
@@ -33,5 +33,19 @@ void note_start();
 /// \throws files::OutputError if the earlier result in a default folder has more than `count`.
 void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
                  std::size_t count, Caller& caller);
+
+/// The versions of this program and of the libraries that affect results. Starts GL to query it.
+/// \throws std::runtime_error if GL does not start.
+std::string version_text();
+/// `version_text` as one line.
+std::string version_line();
+
+/// This program's version and the commit it was built from, such as "0.1.0 (f2f2c60)", or
+/// "0.1.0 (f2f2c60, changed since)" if the files differ from the commit. Outside a checkout
+/// the commit is "unknown".
+std::string program_text();
+
+/// The SHA-256 of the running program's file.
+std::string program_sha256();
 
 }  // namespace lcs::app

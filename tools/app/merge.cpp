@@ -1,4 +1,4 @@
-#include "tools/app/merge.h"
+#include "tools/app/suite.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "tools/app/how_made.h"
 #include "tools/files/output.h"
 #include "tools/files/written.h"
-#include "tools/report/worlds_page.h"
-#include "tools/suite/merge.h"
+#include "tools/report/report_page.h"
+#include "tools/suite/parts.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::app {

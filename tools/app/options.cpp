@@ -7,7 +7,6 @@
 #include "tools/app/compare.h"
 #include "tools/app/generate.h"
 #include "tools/app/kinematics.h"
-#include "tools/app/merge.h"
 #include "tools/app/replay.h"
 #include "tools/app/run.h"
 #include "tools/app/score.h"

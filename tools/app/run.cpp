@@ -10,7 +10,6 @@
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
 #include "tools/app/how_made.h"
-#include "tools/app/version.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"

@@ -13,12 +13,12 @@
 #include "scenarios/scenes.h"
 #include "tools/app/how_made.h"
 #include "tools/app/run.h"
-#include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detectors.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output.h"
 #include "tools/scoring/criteria.h"
+#include "tools/suite/parts.h"
 
 namespace lcs::app {
 namespace {

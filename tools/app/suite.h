@@ -66,4 +66,15 @@ class SuiteWatch {
 ///   on from there.
 SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch);
 
+/// Joins the parts of a suite that were made with `SuiteRequest::shard`.
+struct MergeRequest {
+  std::vector<std::string> parts;  ///< folders
+  SuitePlace place;
+};
+
+Options options_of(MergeRequest& request);
+
+/// \throws files::OutputError, std::exception; then nothing is written.
+SuiteMade merge(const MergeRequest& request, Caller& caller);
+
 }  // namespace lcs::app

@@ -7,9 +7,8 @@
 #include "scenes/worlds/worlds.h"
 #include "tools/files/output_file.h"
 #include "tools/report/report_page.h"
-#include "tools/report/worlds_page.h"
-#include "tools/suite/beside_table.h"
 #include "tools/suite/junit.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::app {
 namespace fs = std::filesystem;

@@ -15,9 +15,8 @@
 #include "tools/output/frame_pictures.h"
 #include "tools/preview/sheet.h"
 #include "tools/recording/recording_io.h"
-#include "tools/report/worlds_page.h"
+#include "tools/report/report_page.h"
 #include "tools/suite/child_process.h"
-#include "tools/suite/pattern.h"
 
 namespace lcs::app {
 namespace {

@@ -12,11 +12,10 @@
 #include <utility>
 
 #include "scenarios/input/message.h"
-#include "tools/app/version.h"
+#include "tools/app/how_made.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/suite/suite_result.h"
-#include "tools/tune/evaluations.h"
 #include "tools/tune/trials.h"
 
 namespace lcs::app {

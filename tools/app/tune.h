@@ -9,7 +9,6 @@
 
 #include "tools/app/caller.h"
 #include "tools/app/option.h"
-#include "tools/tune/record.h"
 #include "tools/tune/search.h"
 
 namespace lcs::app {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "scenarios/input/spelling.h"
-#include "tools/app/version.h"
+#include "tools/app/how_made.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {

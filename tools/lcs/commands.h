@@ -2,6 +2,7 @@
 /// The commands of the program. Each has its options, calls a function of tools/app and prints.
 #pragma once
 
+#include "tools/app/run.h"
 #include "tools/lcs/command_line.h"
 
 namespace lcs::tools {
@@ -17,5 +18,8 @@ Command compare_command();
 Command kinematics_command();
 Command world_command();
 Command tune_command();
+
+/// Prints the figures and the missed criteria of a run.
+ExitCode show_run(const app::RunMade& made, bool quiet);
 
 }  // namespace lcs::tools

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "tools/files/output_file.h"
-#include "tools/lcs/exit_codes.h"
+#include "tools/lcs/command_line.h"
 
 namespace lcs::tools {
 namespace {

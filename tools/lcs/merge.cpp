@@ -1,7 +1,7 @@
 /// \file
 /// `lcs merge`: joins the parts of a suite that `lcs suite --shard` made.
 
-#include "tools/app/merge.h"
+#include "tools/app/suite.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/suite_end.h"
 #include "tools/lcs/terminal.h"

@@ -4,7 +4,6 @@
 
 #include "tools/app/replay.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/run.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {

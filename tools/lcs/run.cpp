@@ -1,6 +1,5 @@
 /// \file
 /// `lcs run`: simulates a scenario, runs a detector on its frames, scores it and reports.
-#include "tools/lcs/run.h"
 #include "scenarios/keys.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
 #include "tools/output/table.h"
-#include "tools/suite/suite_table.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::tools {
 namespace {

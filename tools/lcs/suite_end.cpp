@@ -8,10 +8,9 @@
 #include "scenarios/input/message.h"
 #include "scenes/worlds/worlds.h"
 #include "tools/lcs/terminal.h"
-#include "tools/suite/beside_table.h"
 #include "tools/suite/judgement.h"
-#include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::tools {
 namespace {

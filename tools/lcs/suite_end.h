@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "tools/app/suite.h"
-#include "tools/lcs/exit_codes.h"
+#include "tools/lcs/command_line.h"
 
 namespace lcs::tools {
 

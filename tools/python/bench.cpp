@@ -13,7 +13,6 @@
 #include "tools/app/generate.h"
 #include "tools/app/how_made.h"
 #include "tools/app/kinematics.h"
-#include "tools/app/merge.h"
 #include "tools/app/replay.h"
 #include "tools/app/score.h"
 #include "tools/app/suite.h"
@@ -23,9 +22,8 @@
 #include "tools/python/keywords.h"
 #include "tools/python/scenario.h"
 #include "tools/python/type.h"
-#include "tools/suite/beside_table.h"
-#include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::python {
 namespace {

@@ -1,4 +1,3 @@
-#include "tools/report/worlds_page.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,15 @@
 /// \file
-/// The runs of a suite: the requested scenarios at each point of their sweeps.
+/// The runs of a suite: the requested scenarios at each point of their sweeps; and the regular
+/// expressions from the user that choose among names.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,5 +50,19 @@ void keep_runs(std::vector<PlannedScenario>& plan,
 
 /// The estimated work of a run, in frames times pixels; a guess for a recording.
 double work(const scenario::Scenario& scenario);
+
+/// An ECMAScript regular expression without back-references, so that matching time is bounded.
+class Pattern {
+ public:
+  /// \param option the option's name, such as "--filter". \param example a valid pattern.
+  /// \throws std::runtime_error for an invalid expression or one with more than 1000 parts.
+  Pattern(const std::string& text, std::string_view option, std::string_view example);
+
+  /// Whether the pattern matches anywhere in the name's first 255 bytes.
+  bool is_in(std::string_view name) const;
+
+ private:
+  std::regex regex_;
+};
 
 }  // namespace lcs::suite

@@ -13,7 +13,6 @@
 #include "tools/recording/warnings.h"
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/scoring.h"
-#include "tools/suite/shard.h"
 
 namespace lcs::suite {
 
@@ -60,6 +59,10 @@ struct ScenarioResult {
 
 /// Runs by the names of their scenarios, in order, with their seeds.
 using SuiteRuns = std::vector<std::pair<std::string, std::vector<std::uint64_t>>>;
+
+struct Shard {
+  int part = 1, parts = 1;  ///< 1 <= part <= parts
+};
 
 /// A part of a suite, made by `lcs suite --shard`.
 struct PartOf {

@@ -11,10 +11,10 @@
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/suite/beside_table.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/summary.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::suite {
 namespace {

@@ -1,20 +1,31 @@
 #include "tools/tune/search.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <nlopt.hpp>
-#include <optional>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/input/error.h"
+#include "scenarios/input/message.h"
 #include "scenarios/input/spelling.h"
+#include "tools/files/csv.h"
+#include "tools/suite/suite_run.h"
 
 namespace lcs::tune {
 namespace {
+
+constexpr const char* kSign = "# Written by `lcs tune`: the sets of numbers that it has tried";
+constexpr const char* kRemedy = "choose another folder with --out, or remove the file";
+constexpr double Worth::*kFigures[] = {&Worth::f1, &Worth::false_moving, &Worth::false_static,
+                                       &Worth::false_capped, &Worth::false_corners};
+constexpr const char* kColumns = "f1,false_moving,false_static,false_capped,false_corners,check";
 
 /// Largest ratio of a value to the present one.
 constexpr double kReach = 4;
@@ -72,7 +83,61 @@ std::string text_of(const Parameters& parameters, const std::string& key, double
   }
 }
 
+/// The command, quoted for a shell, as one line, because it becomes a comment in C++.
+std::string line_of(std::vector<std::string> command) {
+  for (std::string& word : command) word = input::one_line(word);
+  return suite::shell_line(command);
+}
+
+/// Escapes a text for a cell of a Markdown table.
+std::string cell_of(const std::string& text) {
+  std::string cell;
+  for (const char c : input::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);
+  return cell;
+}
+
 }  // namespace
+
+Evaluations::Evaluations(const std::filesystem::path& file, const files::Provenance& provenance,
+                         const std::vector<std::string>& keys)
+    : journal_(file, kSign, provenance, fmt::format("{},{}", fmt::join(keys, ","), kColumns),
+               kRemedy, [&](const std::string& row, int line) {
+                 const auto refuse = [&](const std::string& what) {
+                   throw input::Error({file.string(), line}, "the row '{}' {}; {}",
+                                      input::one_line(row), what, kRemedy);
+                 };
+                 const auto cells = files::fields_of(row);
+                 if (cells.size() != keys.size() + std::size(kFigures)) {
+                   refuse(fmt::format("has {} cells, and not {}", cells.size(),
+                                      keys.size() + std::size(kFigures)));
+                 }
+                 std::vector<std::string> values;
+                 Worth worth;
+                 for (std::size_t i = 0; i < cells.size(); ++i) {
+                   const auto number = files::number_in<double>(cells[i]);
+                   if (!number) {
+                     refuse(fmt::format("has '{}', which is no number", input::one_line(cells[i])));
+                   }
+                   if (i < keys.size()) {
+                     values.emplace_back(cells[i]);
+                   } else {
+                     worth.*kFigures[i - keys.size()] = *number;
+                   }
+                 }
+                 known_[values] = worth;
+               }) {}
+
+std::optional<Worth> Evaluations::find(const std::vector<std::string>& values) const {
+  const auto found = known_.find(values);
+  return found == known_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Evaluations::add(const std::vector<std::string>& values, const Worth& worth) {
+  std::string row = fmt::format("{}", fmt::join(values, ","));
+  for (double Worth::*figure : kFigures) row += fmt::format(",{}", worth.*figure);
+  journal_.add(row);
+  known_[values] = worth;
+}
 
 std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string>& keys) {
   const std::vector<ParameterInfo> known = describe(start);
@@ -166,6 +231,57 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   }
   if (problem) std::rethrow_exception(problem);
   return found;
+}
+
+std::string preset_text(const Found& found, const Circumstances& circumstances) {
+  std::string text = fmt::format(
+      "/// Written by `lcs tune`, and not by hand: what the preset `default` has learnt from "
+      "worlds and\n"
+      "/// recordings of `train`.\n"
+      "///\n"
+      "///   {}\n"
+      "/// {}, lcs {}, {} evaluations; objective {:.4f} -> {:.4f}\n"
+      "#pragma once\n\n"
+      "#include <array>\n"
+      "#include <utility>\n\n"
+      "namespace lcs {{\n\n"
+      "/// Keys as `set` takes them, and values.\n"
+      "inline constexpr std::array<std::pair<const char*, double>, {}> kLearnt{{{{\n",
+      line_of(circumstances.command), circumstances.date, circumstances.program, found.evaluations,
+      found.worth_before.objective(), found.worth_after.objective(), found.after.size());
+  for (const Setting& setting : found.after) {
+    text += fmt::format("    {{\"{}\", {}}},\n", setting.key, setting.value);
+  }
+  return text + "}};\n\n}  // namespace lcs\n";
+}
+
+std::string record_text(const Found& found, const std::vector<Stated>& stated,
+                        const Circumstances& circumstances) {
+  std::string text = fmt::format(
+      "# What `lcs tune` found\n\n"
+      "{}, lcs {}, {} evaluations by NLopt's BOBYQA:\n\n"
+      "    {}\n\n"
+      "It makes the most of the mean F1 of rebels over the worlds in which something moves, less a "
+      "tenth of the mean number\nof false objects in a frame over all of them, of which none "
+      "counts for more than one, and less a hundredth of the\nfalse corners in a frame of "
+      "recordings in which nothing moves.\n\n"
+      "| | objective | F1 | false objects in 100 frames, something moves | nothing moves | false "
+      "corners, recordings |\n"
+      "|---|---|---|---|---|---|\n",
+      circumstances.date, circumstances.program, found.evaluations, line_of(circumstances.command));
+  for (const Stated& one : stated) {
+    for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
+      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n",
+                          cell_of(one.suite), when, worth.objective(), worth.f1,
+                          100 * worth.false_moving, 100 * worth.false_static, worth.false_corners);
+    }
+  }
+  text += "\n| parameter | before | after |\n|---|---|---|\n";
+  for (std::size_t i = 0; i < found.after.size(); ++i) {
+    text += fmt::format("| `{}` | {} | {} |\n", found.after[i].key, found.before[i].value,
+                        found.after[i].value);
+  }
+  return text;
 }
 
 }  // namespace lcs::tune

@@ -2,18 +2,47 @@
 /// The search for the filter's learnt parameters: NLopt's BOBYQA (Powell, "The BOBYQA Algorithm for
 /// Bound Constrained Optimization without Derivatives", 2009) on the logarithm of each. It fits a
 /// quadratic model, which takes about twice as many evaluations as there are parameters.
+///
+/// Its output files, besides the journal of its evaluations (tools/files/journal.h): the preset,
+/// and the record of its origin.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "filter/parameters.h"
-#include "tools/tune/evaluations.h"
+#include "tools/files/journal.h"
 #include "tools/tune/trials.h"
 
 namespace lcs::tune {
+
+inline constexpr const char* kEvaluationsFile = "evaluations.csv";
+
+/// The evaluations of a search: each evaluated set of parameter values and its figures, in a
+/// journal.
+class Evaluations {
+ public:
+  /// Opens or creates the file.
+  /// \param provenance all facts and files that the figures depend on. \param keys of the searched
+  ///   parameters. \throws as `files::Journal`; input::Error for a row of other numbers.
+  Evaluations(const std::filesystem::path& file, const files::Provenance& provenance,
+              const std::vector<std::string>& keys);
+
+  /// The figures of these values; absent if not evaluated yet. \param values in the order of keys.
+  std::optional<Worth> find(const std::vector<std::string>& values) const;
+
+  /// Appends a row; it is in the file when this returns. \throws files::OutputError
+  void add(const std::vector<std::string>& values, const Worth& worth);
+
+ private:
+  std::map<std::vector<std::string>, Worth> known_;
+  files::Journal journal_;
+};
 
 /// A parameter's key and its value in the form that `set` accepts.
 struct Setting {
@@ -56,5 +85,26 @@ void add_facts(files::Json& facts, const SearchOptions& options);
 /// \throws files::OutputError
 Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
              Evaluations& known, const std::function<void(int)>& tick);
+
+inline constexpr const char* kPresetFile = "learnt.h";
+inline constexpr const char* kRecordFile = "record.md";
+
+/// The figures of the values before and after the search on one suite.
+struct Stated {
+  std::string suite;  ///< such as "out/train, 60 runs, corridor_1 to yard_10"
+  Worth before, after;
+};
+
+/// Date, program version and command of a search.
+struct Circumstances {
+  std::string date, program;
+  std::vector<std::string> command;  ///< its words after `lcs`
+};
+
+/// The text of `filter/types/learnt.h`, which gives the preset `default` these parameters.
+std::string preset_text(const Found& found, const Circumstances& circumstances);
+
+std::string record_text(const Found& found, const std::vector<Stated>& stated,
+                        const Circumstances& circumstances);
 
 }  // namespace lcs::tune

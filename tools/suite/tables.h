@@ -1,13 +1,27 @@
 /// \file
-/// Tables that compare a suite's detector with other detectors on the same runs.
+/// A suite's result as text for a terminal, and tables that compare its detector with others on the
+/// same runs.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
+
+/// A row per scenario (mean over seeds and, if it shows, half the range), a row per group, and a
+/// legend. At most 120 columns wide; a long name has a line of its own.
+/// \param worst_first sorts by F1, errors first; otherwise in the suite's order.
+std::string suite_table(const SuiteResult& suite, bool worst_first);
+
+/// A line per error and unmet criterion. Equal messages of several seeds share a line.
+std::vector<std::string> problems(const SuiteResult& suite);
+
+/// The runs' warnings, a line per scenario and kind of warning, with the seeds; the text is the
+/// first seed's.
+std::vector<std::string> warnings(const SuiteResult& suite);
 
 /// F1 of rebel corners (mean over seeds): a row per scenario with a figure by every detector, and
 /// the means over each group and over all. Then a line per other detector: the number of scenarios
