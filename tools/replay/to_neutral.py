@@ -9,6 +9,7 @@ Columns of tables are counted from 0; rows without a number as their time are sk
 import argparse
 import re
 import shutil
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
@@ -16,38 +17,32 @@ import numpy as np
 UNITS_NS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
 SIDES = {"right": (1, 0, 0), "down": (0, 1, 0), "ahead": (0, 0, 1),
          "left": (-1, 0, 0), "up": (0, -1, 0), "back": (0, 0, -1)}  # fmt: skip
-IMU = ("#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-       "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]")  # fmt: skip
 RATES, FORCES = {"rad/s": 1, "deg/s": np.pi / 180}, {"m/s^2": 1, "g": 9.80665, "-g": -9.80665}
+IMU = "#timestamp [ns],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x,a_RS_S_y,a_RS_S_z"  # in rad/s and m/s^2
 
 
 def rows_of(file, columns, unit):
     """Times in ns, without rounding through a float, and the other columns as numbers."""
     for line in file.read_text().splitlines():
         fields = re.split(r"[,;\s]+", line.strip())
-        if len(fields) > max(columns) and re.match(r"[-+.\d]", fields[columns[0]]):
-            whole, _, part = fields[columns[0]].partition(".")
-            if not (whole + part).lstrip("-+").isdigit():
-                raise SystemExit(f"{file}: the time {fields[columns[0]]} is rounded; give all digits")
-            digits = len(str(unit)) - 1  # of the fraction, down to 1 ns
-            t_ns = int(whole) * unit + int((part + "0" * digits)[:digits] or 0)
-            yield t_ns, np.array([float(fields[c]) for c in columns[1:]])
+        if len(fields) > max(columns) and re.match(r"[-+.\d]", time := fields[columns[0]]):
+            if not re.fullmatch(r"[-+]?\d+\.?\d*", time):
+                raise SystemExit(f"{file}: the time {time} is rounded; give all digits")
+            yield int(Decimal(time) * UNITS_NS[unit]), np.array([float(fields[c]) for c in columns[1:]])
 
 
-def rotation(x, y, z, w):
-    x, y, z, w = np.array([x, y, z, w]) / np.linalg.norm([x, y, z, w])
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])  # fmt: skip
-
-
-def quaternion(R):
-    """x y z w, whose outer product with itself is linear in R."""
-    K = np.zeros((4, 4))
-    K[:3, :3] = R + R.T - np.trace(R) * np.eye(3)
+def camera_pose(row, axes, is_inverse):
+    """x y z qx qy qz qw of a camera whose x, y and z are to the right, down and ahead."""
+    p, (*v, w) = row[:3], row[3:] / np.linalg.norm(row[3:])
+    S = np.cross(v, np.eye(3)).T  # S a is v x a
+    R = np.eye(3) + 2 * w * S + 2 * S @ S
+    R, p = (R.T, -R.T @ p) if is_inverse else (R, p)
+    mirror = np.diag([1, np.linalg.det(axes), 1])
+    R, p = mirror @ R @ axes.T, mirror @ p
+    K = np.zeros((4, 4))  # of it the quaternion is the last eigenvector
+    K[:3, :3], K[3, 3] = R + R.T - np.trace(R) * np.eye(3), np.trace(R)
     K[3, :3] = K[:3, 3] = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
-    K[3, 3] = np.trace(R)
-    return np.linalg.eigh(K)[1][:, 3]
+    return *p, *np.linalg.eigh(K)[1][:, 3]
 
 
 def write(file, header, rows):
@@ -57,10 +52,10 @@ def write(file, header, rows):
 def main():
     parse = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parse.add_argument("out", type=Path)
-    for name in ("pictures", "times", "poses", "imu"):
+    parse.add_argument("--pictures", type=Path)
+    for name, count in (("times", 1), ("poses", 8), ("imu", 7)):
         parse.add_argument(f"--{name}", type=Path)
-    for name, columns in (("times", [0]), ("poses", range(8)), ("imu", range(7))):
-        parse.add_argument(f"--{name}-columns", type=int, nargs="+", default=list(columns),
+        parse.add_argument(f"--{name}-columns", type=int, nargs="+", default=range(count),
                            help="time; x y z qx qy qz qw; rates, accelerations")  # fmt: skip
         parse.add_argument(f"--{name}-unit", choices=UNITS_NS, default="s", help="of its times")
     parse.add_argument("--axes", nargs=3, choices=SIDES, default=["right", "down", "ahead"],
@@ -73,25 +68,21 @@ def main():
     asked = parse.parse_args()
     (asked.out / "pictures").mkdir(parents=True)
     pictures = sorted(asked.pictures.iterdir(), key=lambda p: list(map(int, re.findall(r"\d+", p.name))))
-    times = list(rows_of(asked.times, asked.times_columns, UNITS_NS[asked.times_unit]))
+    times = [t for t, _ in rows_of(asked.times, asked.times_columns, asked.times_unit)]
     if len(pictures) != len(times):
         raise SystemExit(f"{len(pictures)} pictures and {len(times)} times: give one for each")
     names = [f"{k:06}{picture.suffix}" for k, picture in enumerate(pictures)]
     for picture, name in zip(pictures, names):
         shutil.copy(picture, asked.out / "pictures" / name)
-    write(asked.out / "times.csv", "time_ns,picture", ((t, n) for (t, _), n in zip(times, names)))
+    write(asked.out / "times.csv", "time_ns,picture", zip(times, names))
     if asked.poses:
-        P = np.array([SIDES[side] for side in asked.axes]).T  # from these axes to right, down, ahead
-        poses, unit = [], UNITS_NS[asked.poses_unit]
-        for t_ns, (x, y, z, *q) in rows_of(asked.poses, asked.poses_columns, unit):
-            R, p = rotation(*q), np.array([x, y, z])
-            R, p = (R.T, -R.T @ p) if asked.inverse else (R, p)
-            mirror = np.diag([1, np.linalg.det(P), 1])
-            poses.append([t_ns, *(mirror @ p), *quaternion(mirror @ R @ P.T)])
-        write(asked.out / "poses.csv", "time_ns,x,y,z,qx,qy,qz,qw", poses)
+        axes = np.array([SIDES[side] for side in asked.axes]).T
+        rows = rows_of(asked.poses, asked.poses_columns, asked.poses_unit)
+        write(asked.out / "poses.csv", "time_ns,x,y,z,qx,qy,qz,qw",
+              ([t, *camera_pose(row, axes, asked.inverse)] for t, row in rows))  # fmt: skip
     if asked.imu:
         scale = np.repeat([RATES[asked.rates], FORCES[asked.forces]], 3)
-        rows = rows_of(asked.imu, asked.imu_columns, UNITS_NS[asked.imu_unit])
+        rows = rows_of(asked.imu, asked.imu_columns, asked.imu_unit)
         write(asked.out / "imu.csv", IMU, ([t, *(scale * row)] for t, row in rows))
     width, height, *lens = asked.camera
     yaml = (f"camera_model: pinhole\nresolution: [{width:.0f}, {height:.0f}]\n"
