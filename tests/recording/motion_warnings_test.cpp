@@ -1,5 +1,5 @@
 // Warnings about recordings whose motion cannot be the camera's.
-#include "tools/recording/motion_warnings.h"
+#include "tools/recording/warnings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -103,8 +105,7 @@ void read_kitti_row(std::string_view line, Numbered& numbered) {
   numbered.add(row.whole(0, "the frame", 0, kMostPictures), box);
 }
 
-template <class ReadRow>
-Labels read_rows(const std::filesystem::path& file, const ReadRow& read_row) {
+Labels read_rows(const std::filesystem::path& file, const auto& read_row) {
   input::InputFile input(file, kLabelsFile);
   Numbered numbered;
   for (std::string line; input.next_line(line);) {
@@ -160,8 +161,7 @@ std::optional<std::uint64_t> video_in(const files::JsonNode& json, const std::st
       ids[name] = id_in(one["id"]);
     });
   }
-  std::string names;
-  for (const auto& [name, id] : ids) names += (names.empty() ? "" : ", ") + name;
+  const std::string names = fmt::format("{}", fmt::join(ids | std::views::keys, ", "));
   if (const auto found = ids.find(video); found != ids.end()) return found->second;
   if (!video.empty()) {
     throw files::JsonNode::Error(fmt::format("there is no video {}, but {}", video, names));
@@ -197,11 +197,12 @@ Labels read_coco(const std::filesystem::path& file, const std::string& video) {
       labels.pictures.push_back(picture);
     });
     if (json.has("categories")) {
-      std::string names;
+      std::vector<std::string> names;
       json["categories"].each([&](const files::JsonNode& category) {
-        if (category.has("name")) names += (names.empty() ? "" : ", ") + category["name"].text();
+        if (category.has("name")) names.push_back(category["name"].text());
       });
-      labels.remarks.push_back("labels: boxes of all categories count as movers: " + names);
+      labels.remarks.push_back(fmt::format("labels: boxes of all categories count as movers: {}",
+                                           fmt::join(names, ", ")));
     }
     int flat = 0;
     json["annotations"].each([&](const files::JsonNode& annotation) {
@@ -242,10 +243,6 @@ std::string first_line(const std::filesystem::path& file) {
   }
   throw input::Error({file.string(), 0}, "is empty; {}", kLabelsFile.remedy);
 }
-
-}  // namespace
-
-namespace {
 
 /// The last parts of a path, at most `count`, between slashes.
 std::string end_of(const std::string& name, std::size_t count) {

@@ -77,8 +77,7 @@ struct ChainRow {
   double off_field_px = 0;
 };
 
-template <class Visit>
-void pair(const char* x, const char* y, Vec2& numbers, Visit& visit) {
+void pair(const char* x, const char* y, Vec2& numbers, auto& visit) {
   visit(x, numbers.x());
   visit(y, numbers.y());
 }
@@ -87,8 +86,7 @@ void pair(const char* x, const char* y, Vec2& numbers, Visit& visit) {
 // reference or one of the wrappers above. The bindings name all members, so that a new member
 // missing here fails to compile.
 
-template <class Visit>
-void fields(CornerRow& corner, Visit&& visit) {
+void fields(CornerRow& corner, auto&& visit) {
   auto& [x, y, verdict, reason] = corner;
   visit("x", x);
   visit("y", y);
@@ -97,21 +95,18 @@ void fields(CornerRow& corner, Visit&& visit) {
 }
 
 /// A corner's position, in pixels.
-template <class Visit>
-void fields(Eigen::Vector2f& place, Visit&& visit) {
+void fields(Eigen::Vector2f& place, auto&& visit) {
   visit("x", place.x());
   visit("y", place.y());
 }
 
-template <class Visit>
-void fields(ChainRow& chain, Visit&& visit) {
+void fields(ChainRow& chain, auto&& visit) {
   auto& [sightings, off_field_px] = chain;
   visit("sightings", sightings);
   visit("off_field_px", off_field_px);
 }
 
-template <class Visit>
-void fields(Edge& edge, Visit&& visit) {
+void fields(Edge& edge, auto&& visit) {
   auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
          depth_ratio_sigma, corner, circle] = edge;
   visit("id", id);
@@ -130,8 +125,7 @@ void fields(Edge& edge, Visit&& visit) {
   visit("circle", circle);
 }
 
-template <class Visit>
-void fields(Circle& circle, Visit&& visit) {
+void fields(Circle& circle, auto&& visit) {
   auto& [id, rebel, location, origin, radius, speed, depth_ratio, angle, trust, age, members,
          ignoring] = circle;
   visit("id", id);
@@ -147,8 +141,7 @@ void fields(Circle& circle, Visit&& visit) {
   visit("ignoring", ignoring);
 }
 
-template <class Visit>
-void fields(Square& square, Visit&& visit) {
+void fields(Square& square, auto&& visit) {
   auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
          rebel_circles, ignoring, outline] = square;
   visit("id", id);
@@ -166,8 +159,7 @@ void fields(Square& square, Visit&& visit) {
   visit("outline", Form{outline});
 }
 
-template <class Visit>
-void fields(GapSeen& seen, Visit&& visit) {
+void fields(GapSeen& seen, auto&& visit) {
   auto& [gap, evidence] = seen;
   auto& [circle, place_px, across, columns, rows, inverse_depth_pm] = gap;
   visit("circle", circle);
@@ -179,24 +171,21 @@ void fields(GapSeen& seen, Visit&& visit) {
   visit("evidence", evidence);
 }
 
-template <class Visit>
-void fields(IgnoreRegion& region, Visit&& visit) {
+void fields(IgnoreRegion& region, auto&& visit) {
   auto& [shape, location, size] = region;
   visit("shape", shape);
   pair("x", "y", location, visit);
   pair("size_x", "size_y", size, visit);
 }
 
-template <class Visit>
-void fields(Collector& collector, Visit&& visit) {
+void fields(Collector& collector, auto&& visit) {
   auto& [location, radius, depth_ratio] = collector;
   pair("x", "y", location, visit);
   visit("radius", radius);
   visit("depth_ratio", depth_ratio);
 }
 
-template <class Visit>
-void fields(sim::CornerTruth& truth, Visit&& visit) {
+void fields(sim::CornerTruth& truth, auto&& visit) {
   auto& [label, radial, outline, object, depth_m, motion_px, static_motion_px] = truth;
   visit("label", label);
   visit("radial", radial);
@@ -209,8 +198,7 @@ void fields(sim::CornerTruth& truth, Visit&& visit) {
   visit("static_motion_y", OrNan{static_motion_px.y()});
 }
 
-template <class Visit>
-void fields(sim::ObjectTruth& truth, Visit&& visit) {
+void fields(sim::ObjectTruth& truth, auto&& visit) {
   auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving, mask] = truth;
   visit("object", object);
   visit("left", left);
@@ -223,8 +211,7 @@ void fields(sim::ObjectTruth& truth, Visit&& visit) {
   visit("mask", Form{mask});
 }
 
-template <class Visit>
-void fields(MaskRow& row, Visit&& visit) {
+void fields(MaskRow& row, auto&& visit) {
   auto& [square, left, top, right, bottom, mask] = row;
   visit("square", square);
   visit("left", left);
@@ -234,8 +221,7 @@ void fields(MaskRow& row, Visit&& visit) {
   visit("mask", Form{mask});
 }
 
-template <class Visit>
-void fields(LabelledBox& box, Visit&& visit) {
+void fields(LabelledBox& box, auto&& visit) {
   auto& [id, left, top, right, bottom, ignored] = box;
   visit("id", id);
   visit("left", left);
@@ -245,8 +231,7 @@ void fields(LabelledBox& box, Visit&& visit) {
   visit("ignored", ignored);
 }
 
-template <class Visit>
-void fields(sim::Object& object, Visit&& visit) {
+void fields(sim::Object& object, auto&& visit) {
   auto& [id, name] = object;
   visit("id", id);
   visit("name", name);

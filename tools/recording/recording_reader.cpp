@@ -36,8 +36,7 @@ void require(bool condition, const char* what) {
 }
 
 /// Calls `use`; prefixes its errors with their place, as ".corners.x[3] is not a number".
-template <class Use>
-void within(const std::string& place, const Use& use) {
+void within(const std::string& place, const auto& use) {
   try {
     use();
   } catch (const std::runtime_error& error) {
@@ -202,8 +201,7 @@ void read(Json json, std::vector<Item>& items) {
 void read(Json json, EgoMotion& motion);
 
 /// Reads a member of an object.
-template <class Out>
-void read_member(Json json, const char* key, Out&& out) {
+void read_member(Json json, const char* key, auto&& out) {
   const Json value = member(json, key);
   within(fmt::format(".{}", key), [&] { read(value, out); });
 }
@@ -369,8 +367,7 @@ class LineReader {
   explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {
     if (parser_.allocate(0, files::kDeepestJson + 1) != simdjson::SUCCESS) throw std::bad_alloc();
   }
-  template <class Use>
-  bool next(Use&& use) {
+  bool next(auto&& use) {
     if (!file_.next_line(text_)) return false;
     const Json json = parsed();
     try {
@@ -380,8 +377,7 @@ class LineReader {
     }
     return true;
   }
-  template <class Use>
-  void require_next(Use&& use, std::string_view otherwise) {
+  void require_next(auto&& use, std::string_view otherwise) {
     if (!next(use)) fail(otherwise);
   }
   bool skip() { return file_.next_line(text_); }

@@ -104,9 +104,8 @@ void append_key(std::string& out, std::string_view key) {
 }
 
 /// Appends a value; adds the field's name to the error if that fails.
-template <class Value>
 void append_named(std::string& out, std::string_view list, std::string_view name,
-                  const Value& value) {
+                  const auto& value) {
   try {
     append(out, value);
   } catch (const std::invalid_argument& error) {
@@ -115,9 +114,8 @@ void append_named(std::string& out, std::string_view list, std::string_view name
 }
 
 /// \param owner of the member, for the error.
-template <class Value>
 void append_member(std::string& out, std::string_view owner, std::string_view name,
-                   const Value& value) {
+                   const auto& value) {
   append_key(out, name);
   append_named(out, owner, name, value);
 }
@@ -189,8 +187,7 @@ std::vector<MaskRow> mask_rows(const SquareMasks& masks) {
   return rows;
 }
 
-template <class Content>
-std::string line(const FrameRecord& frame, Content&& append_content) {
+std::string line(const FrameRecord& frame, auto&& append_content) {
   try {
     std::string out = fmt::format("{{\"index\":{}", frame.index);
     append_content(out);

@@ -2,24 +2,230 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::recording {
+namespace {
+
+using Pixel = Eigen::Vector2i;
+
+constexpr std::size_t kFewestCorners = 20;  // fewest corners for judging an image
+constexpr int kSame_px = 1;  // largest offset in x and y between the same corner in two frames
+
+Pixel pixel_of(const Eigen::Vector2f& corner) {
+  return {static_cast<int>(std::lround(corner.x())), static_cast<int>(std::lround(corner.y()))};
+}
+
+/// A pixel map of an image's corners.
+class Places {
+ public:
+  explicit Places(std::span<const Eigen::Vector2f> corners) {
+    for (const Eigen::Vector2f& corner : corners) size_ = size_.cwiseMax(pixel_of(corner));
+    size_ += Pixel::Ones();
+    has_corner_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()),
+                       0);
+    for (const Eigen::Vector2f& corner : corners) {
+      for (int dy = -kSame_px; dy <= kSame_px; ++dy) {
+        for (int dx = -kSame_px; dx <= kSame_px; ++dx) {
+          const Pixel near = pixel_of(corner) + Pixel(dx, dy);
+          if (holds(near)) has_corner_[index(near)] = 1;
+        }
+      }
+    }
+  }
+
+  /// Share of `pixels` that lie on corners after a shift by `by`; those shifted out of the image
+  /// are left out. 0 if half of them or more are.
+  double share(std::span<const Pixel> pixels, const Pixel& by) const {
+    std::size_t inside = 0, met = 0;
+    for (const Pixel& pixel : pixels) {
+      const Pixel moved = pixel + by;
+      if (!holds(moved)) continue;
+      ++inside;
+      met += has_corner_[index(moved)];
+    }
+    if (2 * inside <= pixels.size()) return 0;
+    return static_cast<double>(met) / static_cast<double>(inside);
+  }
+
+ private:
+  bool holds(const Pixel& pixel) const {
+    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < size_.x() && pixel.y() < size_.y();
+  }
+  std::size_t index(const Pixel& pixel) const {
+    return static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(size_.x()) +
+           static_cast<std::size_t>(pixel.x());
+  }
+  Pixel size_ = Pixel::Zero();
+  std::vector<std::uint8_t> has_corner_;
+};
+
+/// A sample of corners, spread evenly over the list and so over the image.
+std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
+  constexpr std::size_t kMost = 100;
+  const std::size_t step = std::max<std::size_t>(1, corners.size() / kMost);
+  std::vector<Pixel> chosen;
+  for (std::size_t i = 0; i < corners.size(); i += step) chosen.push_back(pixel_of(corners[i]));
+  return chosen;
+}
+
+/// Whether nearly all corners kept their place. False where corners are too dense to decide.
+bool stands(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vector2f> now) {
+  constexpr double kNearlyAll = 0.6, kTimesChance = 2;
+  if (std::min(before.size(), now.size()) < kFewestCorners) return false;
+  const Places places(now);
+  const std::vector<Pixel> corners = some(before);
+  const double chance = 0.5 * (places.share(corners, {11, 7}) + places.share(corners, {-9, -13}));
+  const double share = places.share(corners, {0, 0});
+  return share >= kNearlyAll && share >= kTimesChance * chance;
+}
+
+/// Whether most corners have moved by one vector of at least 3 px.
+bool shifted(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vector2f> now) {
+  constexpr int kReach_px = 48, kLeast_px = 3;
+  constexpr double kMost = 0.5, kTimesOther = 1.6;
+  if (std::min(before.size(), now.size()) < kFewestCorners) return false;
+  const Places places(now);
+  const std::vector<Pixel> corners = some(before);
+  double best = 0, sum = 0;
+  int vectors = 0;
+  constexpr int kStep_px = 2 * kSame_px + 1;
+  for (int y = -kReach_px; y <= kReach_px; y += kStep_px) {
+    for (int x = -kReach_px; x <= kReach_px; x += kStep_px) {
+      const double share = places.share(corners, {x, y});
+      sum += share;
+      ++vectors;
+      if (std::hypot(x, y) >= kLeast_px) best = std::max(best, share);
+    }
+  }
+  const double still = places.share(corners, {0, 0});
+  return best >= kMost && best >= kTimesOther * std::max(still, sum / vectors);
+}
+
+/// No turn is estimated and hardly any sideways motion, which looks like a turn in a distant scene.
+bool goes_straight(const EgoMotion& told) {
+  constexpr double kNoTurn_rad = 5e-4;
+  const double side = told.v_C_mps.head<2>().norm();
+  return told.dt_s > 0 && Eigen::AngleAxisd(told.R_cur_prev).angle() < kNoTurn_rad &&
+         side <= 0.2 * std::abs(told.v_C_mps.z());
+}
+
+/// Parts of the picture, of 16, in which most corners are rebels; and those with corners.
+std::pair<int, int> rebel_parts(const FrameRecord& frame) {
+  constexpr int kSide = 4, kFew = 3;
+  std::array<std::array<int, 2>, kSide * kSide> counts{};  // corners, rebels
+  Eigen::Vector2f most = Eigen::Vector2f::Ones();
+  for (const Eigen::Vector2f& px : frame.corners_px) most = most.cwiseMax(px);
+  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+    const Eigen::Vector2f at = frame.corners_px[i].cwiseQuotient(most) * (kSide - 0.01F);
+    auto& [corners, rebels] =
+        counts[static_cast<std::size_t>(at.y()) * kSide + static_cast<std::size_t>(at.x())];
+    ++corners;
+    rebels += frame.verdicts[i] == Verdict::rebel;
+  }
+  std::pair<int, int> parts;
+  for (const auto& [corners, rebels] : counts) {
+    if (corners < kFew) continue;
+    parts.first += 2 * rebels > corners;
+    ++parts.second;
+  }
+  return parts;
+}
+
+}  // namespace
+
+void MotionWatch::add(const FrameRecord& frame) {
+  constexpr double kStep_m = 1;
+  const bool is_first = frames_++ == 0;
+  if (is_first) start_ns_ = frame.t_ns;
+  const double t_s = 1e-9 * static_cast<double>(frame.t_ns - start_ns_);
+  const double speed_mps = frame.motion.v_C_mps.norm();
+  if (speed_mps > kRunawaySpeed_mps) {
+    if (runaway_.count == 0) runaway_mps_ = speed_mps;
+    runaway_.add(t_s);
+  }
+  if (is_first) {
+    stretch_px_ = frame.corners_px;
+  } else {
+    if (goes_straight(frame.motion) && shifted(previous_px_, frame.corners_px)) turns_.add(t_s);
+    gone_m_ += speed_mps * std::max(0.0, frame.motion.dt_s);
+    if (!(gone_m_ < kStep_m)) {
+      ++stretches_;
+      if (stands(stretch_px_, frame.corners_px)) stands_.add(t_s);
+      stretch_px_ = frame.corners_px;
+      gone_m_ = 0;
+    }
+  }
+  previous_px_ = frame.corners_px;
+
+  if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) return;
+  ++judged_;
+  const auto rebels = std::ranges::count(frame.verdicts, Verdict::rebel);
+  if (static_cast<double>(rebels) < kManyRebels * static_cast<double>(frame.verdicts.size())) {
+    return;
+  }
+  rebels_.add(t_s);
+  const auto [rebel, all] = rebel_parts(frame);
+  rebel_parts_ += rebel;
+  parts_ += all;
+}
+
+std::vector<Warned> MotionWatch::warnings() const {
+  constexpr std::int64_t kFewestTurns = 5, kFewestStretches = 3;
+  constexpr double kNearlyAlways = 0.9, kWhole = 0.7;
+  const auto warned = [](const char* word, const Sign& sign, bool is_met, std::string text) {
+    return is_met ? Warned{word, sign.count, std::move(text)} : Warned{word, 0, ""};
+  };
+  const bool is_always =
+      static_cast<double>(stands_.count) >= kNearlyAlways * static_cast<double>(stretches_);
+  const double share = parts_ > 0 ? static_cast<double>(rebel_parts_) / parts_ : 0;
+  return {
+      warned("runaway_speed", runaway_, runaway_.count > 0,
+             fmt::format("the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's "
+                         "biases by a time at rest, a start with its speed, or readings in m/s",
+                         runaway_mps_, runaway_.first_s)),
+      warned("turn_not_told", turns_, turns_.count >= kFewestTurns,
+             fmt::format("the whole picture turns in {} of {} frames, first at {:.2f} s, and no "
+                         "turn is told: give the camera's poses or its IMU",
+                         turns_.count, frames_, turns_.first_s)),
+      warned("still_camera", stands_, stands_.count >= kFewestStretches && is_always,
+             fmt::format("the camera is told to move, and its pictures stand still, first at "
+                         "{:.2f} s: give the speed of this recording, 0 for a camera that stands",
+                         stands_.first_s)),
+      warned("many_rebels", rebels_, 2 * rebels_.count > judged_,
+             fmt::format("{:.0f} % and more of the corners are rebels in {} of {} frames, first at "
+                         "{:.2f} s, and most corners in {:.0f} % of the picture's parts: {}",
+                         100 * kManyRebels, rebels_.count, judged_, rebels_.first_s, 100 * share,
+                         share > kWhole
+                             ? "the motion or the focal length that is told is not the camera's"
+                             : "bodies that move may fill the view; else the motion or the focal "
+                               "length that is told is not the camera's")),
+  };
+}
 
 void WarningWatch::add(const FrameRecord& frame) {
   if (frames_++ == 0) start_ns_ = frame.t_ns;
-  if (frame.corners_px.size() < kFewCorners && few_++ == 0) few_ns_ = frame.t_ns;
+  if (frame.corners_px.size() < kFewCorners) {
+    few_.add(1e-9 * static_cast<double>(frame.t_ns - start_ns_));
+  }
   if (is_recorded_) motion_.add(frame);
 }
 
 Warned WarningWatch::few_corners() const {
   if (frames_ == 0) return {"few_corners", std::nullopt, ""};
-  if (2 * few_ <= frames_) return {"few_corners", 0, ""};
-  return {"few_corners", few_,
+  if (2 * few_.count <= frames_) return {"few_corners", 0, ""};
+  return {"few_corners", few_.count,
           fmt::format("fewer than {} corners are in {} of {} frames, first at {:.2f} s: see what "
                       "the camera sees (video.mp4), or lower corners.threshold",
-                      kFewCorners, few_, frames_, 1e-9 * static_cast<double>(few_ns_ - start_ns_))};
+                      kFewCorners, few_.count, frames_, few_.first_s)};
 }
 
 std::vector<Warned> WarningWatch::warned(const std::optional<sim::Warnings>& world) const {

@@ -1,8 +1,11 @@
 /// \file
 /// Warnings reported with the metrics of a run: from the simulation (`sim/world/warnings.h`),
-/// images with too few corners, and in recordings an implausible motion (`motion_warnings.h`).
+/// images with too few corners, and in recordings signs that the estimated motion is not the
+/// camera's, or that the verdicts are useless. The latter use only corners, verdicts and the
+/// estimated motion.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,7 +13,6 @@
 #include <vector>
 
 #include "sim/world/warnings.h"
-#include "tools/recording/motion_warnings.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::recording {
@@ -19,6 +21,57 @@ inline constexpr const char* kWarningsFile = "warnings.json";
 
 /// The least number of corners in a frame: a match needs neighbouring corners to support it.
 inline constexpr int kFewCorners = 10;
+
+struct Warned {
+  std::string word;                   ///< "warnings.WORD" is the metric
+  std::optional<std::int64_t> count;  ///< absent: not checked in this run
+  std::string text;                   ///< first occurrence and remedy; empty if it did not occur
+};
+
+/// Frames with a sign, and the first of them.
+struct Sign {
+  std::int64_t count = 0;
+  double first_s = 0;
+
+  void add(double t_s) {
+    if (count++ == 0) first_s = t_s;
+  }
+};
+
+/// Faster than any road vehicle: dead reckoning has diverged, or the unit is wrong.
+inline constexpr double kRunawaySpeed_mps = 70;
+
+/// A larger share of rebels is implausible: most of the scene does not move by itself.
+inline constexpr double kManyRebels = 0.3;
+
+/// Watches a run for four warnings, in this order:
+///
+/// * runaway_speed: estimated speeds above `kRunawaySpeed_mps`;
+/// * turn_not_told: most corners have moved by the same vector of 3 px or more, but the estimated
+///   motion has neither rotation nor sideways velocity; reported from five such frames on;
+/// * still_camera: the estimated motion adds up to 1 m, but nearly all corners stayed in place;
+///   reported from three such stretches on, if they are nine in ten;
+/// * many_rebels: at least the share `kManyRebels` of the corners are rebels; reported if this
+///   holds in more than half of the frames.
+class MotionWatch {
+ public:
+  void add(const FrameRecord& frame);
+  /// Of the frames so far.
+  std::vector<Warned> warnings() const;
+
+ private:
+  using Corners = std::vector<Eigen::Vector2f>;
+  Sign runaway_, turns_, stands_, rebels_;
+  std::int64_t frames_ = 0;
+  std::int64_t start_ns_ = 0;        ///< time of the first frame
+  double runaway_mps_ = 0;           ///< the first speed above `kRunawaySpeed_mps`
+  Corners previous_px_;              ///< corners of the previous frame
+  Corners stretch_px_;               ///< corners at the start of the present stretch
+  double gone_m_ = 0;                ///< way in this stretch
+  std::int64_t stretches_ = 0;       ///< finished ones
+  std::int64_t judged_ = 0;          ///< frames that are judged by their rebels
+  int rebel_parts_ = 0, parts_ = 0;  ///< of the picture, in frames with many rebels
+};
 
 /// Watches the frames of a run for warnings.
 class WarningWatch {
@@ -36,8 +89,9 @@ class WarningWatch {
 
   bool is_recorded_;
   MotionWatch motion_;
-  std::int64_t frames_ = 0, few_ = 0;       ///< all, and those with few corners
-  std::int64_t start_ns_ = 0, few_ns_ = 0;  ///< times of the first of each
+  Sign few_;  ///< with few corners
+  std::int64_t frames_ = 0;
+  std::int64_t start_ns_ = 0;  ///< time of the first frame
 };
 
 /// One readable line for each warning that occurred.
