@@ -1,16 +1,21 @@
 // KITTI raw: image_0X/ and oxts/ of one drive; the date's folder holds the calibration files.
+// KITTI odometry: image_0/ to image_3/, calib.txt, times.txt and, for some sequences, poses of
+// camera 0, beside the pictures or, as in the benchmark, in poses/NN.txt for sequences/NN/.
 // KITTI tracking: image_02/NNNN/, oxts/NNNN.txt and calib/NNNN.txt in training/ or testing/.
 // KITTI-360: data_2d_raw/DRIVE/image_0X/data_rect/, beside calibration/ and data_poses/DRIVE/.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/replay/kitti_calibration.h"
 #include "tools/replay/motion_source.h"
+#include "tools/replay/poses_file.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
@@ -18,8 +23,99 @@
 namespace lcs::replay {
 namespace {
 
-/// A state has 30 numbers.
-constexpr input::FileKind kSmallText{input::kMebibyte, "give the file as KITTI has it"};
+constexpr std::string_view kPrefix = "image_";
+constexpr input::FileKind kCalibration{input::kMebibyte, "give the file as KITTI has it"};
+
+/// A calibration file, one "NAME: numbers" a line. Its functions throw input::Error if a line is
+/// missing, has another length, or is a matrix that is no rotation.
+class KittiCalibration {
+ public:
+  /// Lines without a name are called P0, P1, ... \throws input::Error if it cannot be read.
+  explicit KittiCalibration(const fs::path& file) : file_(file) {
+    input::InputFile input(file, kCalibration);
+    int unnamed = 0;
+    for (std::string line; input.next_line(line);) {
+      const std::string_view text = files::trimmed(line);
+      if (text.empty()) continue;
+      const std::size_t end =
+          text.find_first_of(": ");  // KITTI tracking names some without a colon
+      const bool is_named =
+          end != text.npos && !files::number_in<double>(text.substr(0, end)).has_value();
+      std::istringstream words{std::string(is_named ? text.substr(end + 1) : text)};
+      std::vector<double>& numbers =
+          values_[is_named ? std::string(text.substr(0, end)) : fmt::format("P{}", unnamed++)];
+      for (double number; words >> number;) numbers.push_back(number);
+    }
+  }
+
+  Eigen::Matrix3d rotation(const std::string& name) const {
+    return rotation_in(name, Eigen::Map<const Eigen::Matrix3d>(numbers(name, 9)).transpose());
+  }
+  /// The transform of a line with 12 numbers, three rows of a matrix.
+  sim::Pose pose(const std::string& name) const {
+    const Eigen::Map<const Rows> rows(numbers(name, Rows::SizeAtCompileTime));
+    return {rotation_in(name, rows.leftCols<3>()), rows.col(3)};
+  }
+  /// The transform of the lines R and T.
+  sim::Pose pose() const { return {rotation("R"), Vector3d(numbers("T", 3))}; }
+  /// K of the projection [K | K t] of rectified pictures, in pixels, with their size if S_rect_NN
+  /// states it.
+  Lens lens(const std::string& name) const {
+    const double* P = numbers(name, Rows::SizeAtCompileTime);
+    Lens lens = pinhole({P[0], P[5], P[2], P[6]}, {file_.string(), 0});
+    constexpr std::string_view kRectified = "P_rect_";
+    if (!name.starts_with(kRectified)) return lens;
+    const std::string size = "S_rect_" + name.substr(kRectified.size());
+    if (values_.contains(size)) {
+      lens.width_px = static_cast<int>(numbers(size, 2)[0]);
+      lens.height_px = static_cast<int>(numbers(size, 2)[1]);
+    }
+    return lens;
+  }
+  /// t of that projection: transforms points from the common rectified frame to the camera.
+  sim::Pose beside(const std::string& name) const {
+    const double* P = numbers(name, Rows::SizeAtCompileTime);
+    return {Eigen::Matrix3d::Identity(), {P[3] / P[0], P[7] / P[5], P[11]}};
+  }
+
+ private:
+  using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+
+  const double* numbers(const std::string& name, std::size_t count) const {
+    const auto found = values_.find(name);
+    if (found != values_.end() && found->second.size() == count) return found->second.data();
+    throw input::Error({file_.string(), 0}, "{} is missing, or is not {} numbers; {}", name, count,
+                       kCalibration.remedy);
+  }
+  Eigen::Matrix3d rotation_in(const std::string& name, const Eigen::Matrix3d& rounded) const {
+    if (const auto R = rotation_of(rounded)) return *R;
+    throw input::Error({file_.string(), 0}, "{} is no rotation; {}", name, kCalibration.remedy);
+  }
+
+  fs::path file_;
+  std::map<std::string, std::vector<double>> values_;
+};
+
+/// The folder of the asked camera, or else of the first of the names that is there.
+/// \throws input::Error if it is not there.
+fs::path camera_folder(const scenario::RecordingSource& asked, std::span<const char* const> names) {
+  const auto first = std::ranges::find_if(
+      names, [&](const char* name) { return fs::is_directory(asked.path / name); });
+  const fs::path folder = asked.path / (!asked.camera.empty()  ? asked.camera
+                                        : first != names.end() ? *first
+                                                               : names.front());
+  if (folder.filename().string().starts_with(kPrefix) && fs::is_directory(folder)) return folder;
+  throw input::Error(asked.source, "{} is not there; name a camera, as {}", folder.string(),
+                     names.front());
+}
+
+constexpr const char* kDriveCameras[] = {"image_02", "image_00", "image_03", "image_01"};
+constexpr const char* kOdometryCameras[] = {"image_0", "image_2", "image_1", "image_3"};
+
+bool has_any(const fs::path& folder, std::span<const char* const> names) {
+  return std::ranges::any_of(names,
+                             [&](const char* name) { return fs::is_directory(folder / name); });
+}
 
 /// Line k belongs to item k; absent if malformed.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {
@@ -33,42 +129,41 @@ std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally&
   return times;
 }
 
-/// The state of 30 numbers, at no time; absent if malformed.
-std::optional<NavigationState> state_in(std::istream& words) {
+/// A row of 30 numbers, lat lon alt roll pitch yaw vn ve vf vl vu ..., as a state at no time;
+/// absent if malformed. The world frame is east, north, up.
+std::optional<NavigationState> state_in(const TextTable::Row& row) {
   constexpr std::size_t kNumbers = 30;
   enum Column : std::size_t { kRoll = 3, kPitch, kYaw, kNorth, kEast, kUp = 10 };
-  std::vector<double> numbers;
-  for (std::string word; words >> word;) {
-    if (const auto number = files::number_in<double>(word)) numbers.push_back(*number);
-  }
-  if (numbers.size() != kNumbers) return std::nullopt;
-  const Vector3d v_mps(numbers[kEast], numbers[kNorth], numbers[kUp]);
+  const auto numbers = TextTable::numbers(row, 0, kNumbers);
+  if (!numbers) return std::nullopt;
+  const std::vector<double>& n = *numbers;
+  const Vector3d v_mps(n[kEast], n[kNorth], n[kUp]);
   if (!is_speed(v_mps)) return std::nullopt;
-  return NavigationState{
-      0, sim::quaternion_of_rpy({numbers[kRoll], numbers[kPitch], numbers[kYaw]}), v_mps};
+  return NavigationState{0, sim::quaternion_of_rpy({n[kRoll], n[kPitch], n[kYaw]}), v_mps};
 }
 
-/// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; world frame east, north, up.
+constexpr const char* kNoState = "states of the navigation unit are missing or cannot be read";
+
+/// A state a file.
 std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   const auto times = read_times(folder / "timestamps.txt", tally);
   std::vector<NavigationState> states;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!times[i]) continue;
     const fs::path file = folder / "data" / fmt::format("{:010}.txt", i);
-    std::string text;
+    std::optional<NavigationState> state;
     try {
-      text = input::read_file(file, kSmallText);
+      const TextTable table = read_table(file);
+      if (table.rows.size() == 1) state = state_in(table.rows.front());
     } catch (const input::Error&) {
-      text.clear();  // counted below
+      // counted below
     }
-    std::istringstream words(text);
-    auto state = state_in(words);
-    if (!state) {
-      tally.add("states of the navigation unit are missing or cannot be read", file.string());
-      continue;
+    if (state) {
+      state->t_ns = *times[i];
+      states.push_back(*state);
+    } else {
+      tally.add(kNoState, file.string());
     }
-    state->t_ns = *times[i];
-    states.push_back(*state);
   }
   return states;
 }
@@ -96,8 +191,6 @@ void take_calibration(const fs::path& drive, const std::string& number, std::opt
   }
 }
 
-constexpr const char* kDriveCameras[] = {"image_02", "image_00", "image_03", "image_01"};
-
 /// PNG as in KITTI, or JPEG as in smaller copies.
 fs::path picture_of(const fs::path& data, std::size_t number) {
   const fs::path png = data / fmt::format("{:010}.png", number);
@@ -115,38 +208,44 @@ void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded
   number_frames(recorded, false);
 }
 
-}  // namespace
-
-bool is_kitti(const fs::path& folder) {
-  scenario::RecordingSource asked;
-  asked.path = folder;
-  return fs::is_directory(folder / "oxts" / "data") &&
-         fs::is_directory(folder / kitti_camera(asked, kDriveCameras, "image_02"));
+void time_frames(const fs::path& file, Recorded& recorded) {
+  const TextTable table = read_table(file);
+  const auto rows = take_rows(file, table.rows.size(), "time", recorded);
+  std::size_t next = 0;
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
+    const TextTable::Row& row = table.rows[rows[next++]];
+    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
+    if (!t_ns) recorded.tally.add("rows cannot be read and are left out", table.at(row));
+    frame.t_ns = t_ns.value_or(0);
+    return !t_ns;
+  });
+  put_in_order(recorded.frames, file, recorded.tally);
 }
 
-Recorded read_kitti(const scenario::RecordingSource& asked, bool) {
-  const std::string name = kitti_camera(asked, kDriveCameras, "image_02");
-  const fs::path camera_folder = asked.path / name;
-  if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
-    throw input::Error(asked.source, "{} is not there; name a camera, as image_02",
-                       camera_folder.string());
+/// The poses beside the pictures, or at the benchmark's place; "" if in neither.
+fs::path poses_of(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  const fs::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  for (const fs::path& file :
+       {folder / "poses.txt", folder / ".." / ".." / "poses" / (name.string() + ".txt")}) {
+    if (fs::exists(file)) return file;
   }
-  Recorded recorded;
-  fs::path clock = camera_folder / "timestamps.txt";
-  if (!fs::exists(clock)) {
-    clock = asked.path / "oxts" / "timestamps.txt";
-    recorded.tally.add("cameras have no times of their own: the times of the navigation are used",
-                       name);
-  }
-  take_frames(clock, camera_folder / "data", recorded);
-  sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
-  take_calibration(asked.path, name.substr(name.find('_') + 1), recorded.lens, T_BC);
-  if (motion_is_asked(asked)) return recorded;
-  move_by_navigation(read_oxts(asked.path / "oxts", recorded.tally), T_BC, recorded);
-  return recorded;
+  return "";
 }
 
-namespace {
+/// The poses are of camera 0; y of their world frame points down.
+void read_motion(const scenario::RecordingSource& asked, const fs::path& file,
+                 const sim::Pose& T_C0C, Recorded& recorded) {
+  const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
+  std::vector<PosesMotion::CameraPose> at_frames;
+  const auto rows = take_rows(file, poses.lines.size(), "pose", recorded);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& line = poses.lines[rows[i]];
+    if (line) at_frames.push_back({recorded.frames[i].t_ns, line->T_WC * T_C0C});
+  }
+  move_along(std::move(at_frames), Vector3d(0, -1, 0), asked, file,
+             "pictures have no pose and are left out", recorded);
+}
 
 /// A sequence of KITTI tracking: ROOT/image_02/NNNN.
 struct Tracked {
@@ -184,6 +283,51 @@ fs::path rectified_in(const fs::path& drive, const std::string& camera) {
 
 }  // namespace
 
+bool is_kitti(const fs::path& folder) {
+  return fs::is_directory(folder / "oxts" / "data") && has_any(folder, kDriveCameras);
+}
+
+Recorded read_kitti(const scenario::RecordingSource& asked, bool) {
+  const fs::path camera = camera_folder(asked, kDriveCameras);
+  const std::string name = camera.filename().string();
+  Recorded recorded;
+  fs::path clock = camera / "timestamps.txt";
+  if (!fs::exists(clock)) {
+    clock = asked.path / "oxts" / "timestamps.txt";
+    recorded.tally.add("cameras have no times of their own: the times of the navigation are used",
+                       name);
+  }
+  take_frames(clock, camera / "data", recorded);
+  sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
+  take_calibration(asked.path, name.substr(kPrefix.size()), recorded.lens, T_BC);
+  if (motion_is_asked(asked)) return recorded;
+  move_by_navigation(read_oxts(asked.path / "oxts", recorded.tally), T_BC, recorded);
+  return recorded;
+}
+
+bool is_kitti_odometry(const fs::path& folder) {
+  return fs::exists(folder / "calib.txt") && has_any(folder, kOdometryCameras);
+}
+
+Recorded read_kitti_odometry(const scenario::RecordingSource& asked, bool) {
+  const fs::path camera = camera_folder(asked, kOdometryCameras);
+  Recorded recorded;
+  take_pictures(camera, "", recorded);
+  recorded.numbers.first = 0;
+  recorded.timed = fs::exists(asked.path / "times.txt");
+  if (recorded.timed) time_frames(asked.path / "times.txt", recorded);
+  const std::string name = camera.filename().string();
+  const std::string projection = fmt::format("P{}", name.substr(kPrefix.size()));
+  const KittiCalibration calibration(asked.path / "calib.txt");
+  recorded.lens = calibration.lens(projection);
+  const fs::path poses = poses_of(asked.path);
+  if (motion_is_asked(asked) || poses.empty()) return recorded;
+  // Without times and a rate it will be rejected later, for that reason.
+  if (!recorded.timed) time_by(asked.fps.value_or(1), recorded);
+  read_motion(asked, poses, calibration.beside(projection).inverse(), recorded);
+  return recorded;
+}
+
 bool is_kitti_tracking(const fs::path& folder) {
   return fs::is_directory(folder) && tracked_in(folder).has_value();
 }
@@ -216,14 +360,11 @@ Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
   }
   time_by(asked.fps.value_or(kRate_hz), recorded);
   std::vector<std::optional<NavigationState>> lines;
-  input::InputFile file(oxts, kSmallText);
-  for (std::string line; file.next_line(line);) {
-    std::istringstream words(line);
-    lines.push_back(state_in(words));
-    if (!lines.back()) {
-      recorded.tally.add("states of the navigation unit are missing or cannot be read",
-                         fmt::format("{}:{}", oxts.string(), lines.size()));
-    }
+  const TextTable table = read_table(oxts);
+  for (const TextTable::Row& row : table.rows) {
+    lines.resize(static_cast<std::size_t>(row.line));
+    lines.back() = state_in(row);
+    if (!lines.back()) recorded.tally.add(kNoState, table.at(row));
   }
   std::vector<NavigationState> states;
   const auto rows = take_rows(oxts, lines.size(), "state", recorded);

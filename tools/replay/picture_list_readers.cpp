@@ -1,3 +1,5 @@
+// TUM RGB-D: rgb.txt lists pictures with their times, groundtruth.txt the poses of the colour
+// camera in a world frame with z up. A recording has no calibration.
 // RPG's event-camera dataset (Mueggler et al., IJRR 2017): events.txt (t x y p), images.txt
 // (t name), calib.txt (fx fy cx cy k1 k2 p1 p2 k3), groundtruth.txt (TUM's lines, of the camera),
 // imu.txt (t ax ay az gx gy gz).
@@ -19,6 +21,8 @@ namespace {
 
 constexpr const char* kEvents = "events.txt";
 constexpr const char* kPictureList = "images.txt";
+constexpr const char* kTumPictureList = "rgb.txt";
+constexpr const char* kTruth = "groundtruth.txt";
 
 /// The first four fields between blanks.
 std::array<std::string_view, 4> fields_in(std::string_view line) {
@@ -72,6 +76,22 @@ Lens read_lens(const fs::path& file) {
 
 }  // namespace
 
+bool is_tum_rgbd(const fs::path& folder) {
+  return fs::exists(folder / kTumPictureList);
+}
+
+Recorded read_tum_rgbd(const scenario::RecordingSource& asked, bool) {
+  Recorded recorded;
+  const auto picture = [&](const TextTable::Row& row) {
+    return row.fields.size() > 1 ? asked.path / row.fields[1] : fs::path();
+  };
+  take_list(read_table(asked.path / kTumPictureList), kSecond_ns, picture, recorded);
+  if (!motion_is_asked(asked) && fs::exists(asked.path / kTruth)) {
+    move_by_timed_poses(asked, asked.path / kTruth, Vector3d::UnitZ(), recorded);
+  }
+  return recorded;
+}
+
 bool is_rpg_events(const fs::path& folder) {
   return fs::exists(folder / kEvents) && fs::exists(folder / kPictureList);
 }
@@ -92,7 +112,7 @@ Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_moti
   if (const fs::path file = asked.path / "calib.txt"; fs::exists(file))
     recorded.lens = read_lens(file);
   if (motion_is_asked(asked)) return recorded;
-  const fs::path imu = asked.path / "imu.txt", truth = asked.path / "groundtruth.txt";
+  const fs::path imu = asked.path / "imu.txt", truth = asked.path / kTruth;
   const bool is_on_imu =
       asked.calibration && read_calibration(*asked.calibration, asked.camera).T_BS;
   if (is_on_imu && !exact_motion && fs::exists(imu)) {
