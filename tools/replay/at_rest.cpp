@@ -15,6 +15,9 @@ namespace {
 constexpr std::int64_t kPart_ns = 250'000'000;
 constexpr std::size_t kFewestParts = 4;  // one second
 
+/// Angular rate in rad/s, then acceleration in m/s^2.
+using Both = Eigen::Matrix<double, 6, 1>;
+
 /// Upper limits on bias and noise of a usable sensor.
 constexpr double kMostBias_radps = 0.1, kMostBias_mps2 = 0.6;
 constexpr double kMostNoise_radps = 0.05, kMostNoise_mps2 = 0.5;
@@ -25,27 +28,18 @@ constexpr double kDeviations = 5, kLeastChange_radps = 2e-3, kLeastChange_mps2 =
 struct Part {
   std::int64_t end_ns = 0;
   int count = 0;
-  Vector3d gyro = Vector3d::Zero(), accel = Vector3d::Zero();              ///< means
-  Vector3d gyro_noise = Vector3d::Zero(), accel_noise = Vector3d::Zero();  ///< deviations
+  Both mean = Both::Zero(), noise = Both::Zero();  ///< the latter are deviations
+
+  auto gyro() const { return mean.head<3>(); }
+  auto accel() const { return mean.tail<3>(); }
 };
 
 Part part_of(std::span<const sim::ImuSample> readings) {
-  Part part;
-  Vector3d gyro2 = Vector3d::Zero(), accel2 = Vector3d::Zero();
-  for (const sim::ImuSample& reading : readings) {
-    part.gyro += reading.gyro_radps;
-    part.accel += reading.accel_mps2;
-  }
-  part.count = static_cast<int>(readings.size());
-  part.gyro /= part.count;
-  part.accel /= part.count;
-  for (const sim::ImuSample& reading : readings) {
-    gyro2 += (reading.gyro_radps - part.gyro).cwiseAbs2();
-    accel2 += (reading.accel_mps2 - part.accel).cwiseAbs2();
-  }
-  part.gyro_noise = (gyro2 / part.count).cwiseSqrt();
-  part.accel_noise = (accel2 / part.count).cwiseSqrt();
-  part.end_ns = readings.back().t_ns;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, readings.size());
+  Eigen::Index next = 0;
+  for (const sim::ImuSample& one : readings) all.col(next++) << one.gyro_radps, one.accel_mps2;
+  Part part{readings.back().t_ns, static_cast<int>(all.cols()), all.rowwise().mean()};
+  part.noise = (all.colwise() - part.mean).array().square().rowwise().mean().sqrt();
   return part;
 }
 
@@ -64,19 +58,19 @@ std::vector<Part> parts_of(std::span<const sim::ImuSample> readings) {
 }
 
 bool is_noise(const Part& part, double gravity_mps2) {
-  return part.gyro.norm() <= kMostBias_radps &&
-         std::abs(part.accel.norm() - gravity_mps2) <= kMostBias_mps2 &&
-         part.gyro_noise.maxCoeff() <= kMostNoise_radps &&
-         part.accel_noise.maxCoeff() <= kMostNoise_mps2;
+  return part.gyro().norm() <= kMostBias_radps &&
+         std::abs(part.accel().norm() - gravity_mps2) <= kMostBias_mps2 &&
+         part.noise.head<3>().maxCoeff() <= kMostNoise_radps &&
+         part.noise.tail<3>().maxCoeff() <= kMostNoise_mps2;
 }
 
 bool is_same(const Part& a, const Part& b) {
-  const auto within = [&](const Vector3d& change, const Vector3d& noise, double least) {
-    const double of_means = std::sqrt(1.0 / a.count + 1.0 / b.count);
-    return (change.array().abs() <= (kDeviations * of_means * noise.array()).max(least)).all();
-  };
-  return within(b.gyro - a.gyro, a.gyro_noise, kLeastChange_radps) &&
-         within(b.accel - a.accel, a.accel_noise, kLeastChange_mps2);
+  Both least;
+  least << Vector3d::Constant(kLeastChange_radps), Vector3d::Constant(kLeastChange_mps2);
+  const double of_means = std::sqrt(1.0 / a.count + 1.0 / b.count);
+  return ((b.mean - a.mean).cwiseAbs().array() <=
+          (kDeviations * of_means * a.noise).cwiseMax(least).array())
+      .all();
 }
 
 /// Number of consecutive parts at rest, from the first one on.
@@ -102,14 +96,11 @@ Vector3d middle_mean(std::vector<Vector3d> values) {
 
 Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   const Part all = part_of(readings);
-  Rest rest;
-  rest.from_ns = readings.front().t_ns;
-  rest.until_ns = all.end_ns;
-  rest.gyro_bias_radps = all.gyro;
-  if (all.accel.norm() > 0) {
-    const Vector3d up = all.accel.normalized();
-    rest.accel_bias_mps2 = all.accel - gravity_mps2 * up;
-    rest.R_WS = sim::least_rotation(up, Vector3d::UnitZ()).toRotationMatrix();
+  Rest rest{readings.front().t_ns, all.end_ns, all.gyro()};
+  if (all.accel().norm() > 0) {
+    const Vector3d up = all.accel().normalized();
+    rest.accel_bias_mps2 = all.accel() - gravity_mps2 * up;
+    rest.q_WS = sim::least_rotation(up, Vector3d::UnitZ());
   }
   return rest;
 }

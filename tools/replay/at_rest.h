@@ -3,7 +3,7 @@
 /// rest the biases.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,7 +18,7 @@ struct Rest {
   Vector3d gyro_bias_radps = Vector3d::Zero();
   /// Along gravity only: a bias across it is indistinguishable from a tilt, and is taken for one.
   Vector3d accel_bias_mps2 = Vector3d::Zero();
-  Eigen::Matrix3d R_WS = Eigen::Matrix3d::Identity();  ///< upright according to the accelerometer
+  Eigen::Quaterniond q_WS = Eigen::Quaterniond::Identity();  ///< upright by the accelerometer
   bool moved = false;  ///< the readings contradict the given duration of rest
 };
 

@@ -35,10 +35,8 @@ bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
   }
   if (recorded.timed) {
     constexpr double kSame = 0.05;
-    std::vector<std::int64_t> times_ns;
-    for (const RecordedFrame& frame : recorded.frames) times_ns.push_back(frame.t_ns);
-    const std::optional<double> own_hz = usual_rate_hz(times_ns);
     if (!asked.fps) return true;
+    const std::optional<double> own_hz = usual_rate_hz(stamps_of(recorded.frames));
     if (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame) {
       recorded.tally.tell("fps has no effect: the recording itself has times of that rate");
       return true;
@@ -81,10 +79,9 @@ std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const P
 std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const PosesFile& file,
                                                      const Recorded& recorded) {
   if (!recorded.numbers.least && recorded.video.empty()) {
-    throw input::Error(
-        {path.string(), 0},
-        "its rows state the numbers of their pictures, and the names of the pictures "
-        "have none; give a row of 12 numbers for each picture");
+    throw input::Error({path.string(), 0},
+                       "its rows state the numbers of their pictures, and the names of the "
+                       "pictures have none; give a row of 12 numbers for each picture");
   }
   std::map<std::size_t, std::int64_t> times_ns;
   for (const RecordedFrame& frame : recorded.frames) {
@@ -115,8 +112,8 @@ void join_camera(const scenario::RecordingSource& asked, PosesFile& file, Record
   const std::optional<sim::Pose> T_BC = camera_on_body(asked, recorded.T_BC, recorded);
   if (!T_BC) {
     throw input::Error({asked.poses->string(), 0},
-                       "its poses are the body's (p_RS_R_x); give the camera's place on it, "
-                       "by a calibration with T_BS or T_cam_imu, or by mount");
+                       "its poses are the body's (p_RS_R_x); give the camera's place on it, by a "
+                       "calibration with T_BS or T_cam_imu, or by mount");
   }
   for (auto& line : file.lines) {
     if (line) line->T_WC = line->T_WC * *T_BC;
@@ -134,7 +131,7 @@ void calibrate_at_rest(const scenario::RecordingSource& asked, SensorReadings& r
     sample.gyro_radps -= rest->gyro_bias_radps;
     sample.accel_mps2 -= rest->accel_bias_mps2;
   }
-  calibration.T_WB_start.R = rest->R_WS;
+  calibration.T_WB_start.R = rest->q_WS.toRotationMatrix();
   tell_rest(*rest, tally);
 }
 
@@ -241,15 +238,9 @@ void set_motion(const scenario::RecordingSource& asked, bool times_known, bool i
 }
 
 void require_lens(const Lens& lens) {
-  const auto is_within = [](double number, double low, double high) {
-    return number >= low && number <= high;  // false for NaN
-  };
   constexpr double kMostFocal_px = 1e6, kMostCentre_px = 1e5;
-  const bool is_lens = is_within(lens.fu_px, 1, kMostFocal_px) &&
-                       is_within(lens.fv_px, 1, kMostFocal_px) &&
-                       is_within(lens.cu_px, -kMostCentre_px, kMostCentre_px) &&
-                       is_within(lens.cv_px, -kMostCentre_px, kMostCentre_px);
-  if (is_lens) return;
+  const Eigen::Array2d focal(lens.fu_px, lens.fv_px), centre(lens.cu_px, lens.cv_px);
+  if ((focal >= 1 && focal <= kMostFocal_px && centre.abs() <= kMostCentre_px).all()) return;
   throw input::Error(lens.source,
                      "a focal length of {}, {} px and a principal point at {}, {} px fit no "
                      "camera; correct the calibration, or give focal",
@@ -309,6 +300,56 @@ std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
     }
   }
   return std::nullopt;
+}
+
+/// Refuses what was asked for and has no effect.
+void require_effects(const scenario::RecordingSource& asked, const RecordingLayout& layout,
+                     bool exact_motion, const Recorded& recorded) {
+  const scenario::RecordingSource::Topics& topics = asked.topics;
+  const bool is_bag = layout.name == "bag";
+  const bool has_own_lens = asked.focal_px || asked.calibration;
+  const bool is_video = !recorded.video.empty();
+  constexpr const char* kNotOfBag = "it is of a ROS bag, and this is none";
+  constexpr const char* kNoImu = "the camera's motion is not by an IMU whose start is unknown";
+  const auto of_bag = [is_bag](const char* why) { return is_bag ? why : kNotOfBag; };
+  const struct {
+    const char* key;
+    bool is_asked;
+    const char* why;
+    bool has_effect = false;
+  } rules[] = {
+      {"ego_motion: truth", exact_motion, "no truth of this recording gives the motion"},
+      {"camera", !asked.camera.empty(), "the recording has one camera, and no calibration names it",
+       layout.has_cameras},
+      {"topics.image", !topics.image.empty(), kNotOfBag, is_bag},
+      {"topics.camera_info", !topics.camera_info.empty(),
+       of_bag("focal or calibration takes its place"), is_bag && !has_own_lens},
+      {"topics.imu", !topics.imu.empty(), of_bag("poses or a motion of yours take its place")},
+      {"topics.poses", !topics.poses.empty(), of_bag("a motion of yours takes its place")},
+      {"topics.odometry", !topics.odometry.empty(),
+       of_bag("it is beside an IMU, and none is read")},
+      {"topics.world", !topics.world.empty(), of_bag("no poses of the bag are read")},
+      {"time_unit", !asked.time_unit.empty(), "no table or name that is read has times in a unit"},
+      {"time_offset", asked.time_offset_s.has_value(),
+       "the motion of this recording has the clock of its pictures"},
+      {"at_rest", asked.at_rest_s.has_value(), kNoImu},
+      {"imu_calibration", asked.imu_calibration.has_value(), kNoImu},
+      {"calibration", asked.calibration && asked.focal_px,
+       "focal takes its place, and the motion needs no place on an IMU"},
+      {"mount", asked.mount_rpy_rad.has_value(),
+       "the layout states it, or it tells the vertical only, which needs camera_height", false},
+      {"labels_video", !asked.labels_video.empty(), "there are no labels",
+       asked.labels.has_value()},
+      {"bayer", !asked.bayer.empty(), "a video has colours", !is_video},
+      {"bits", asked.bits.has_value(), "no picture has 16 bits",
+       !is_video && recorded.format.is_deep},
+  };
+  for (const auto& [key, is_asked, why, has_effect] : rules) {
+    const bool is_of_bag = std::string_view(key).starts_with("topics.");
+    const bool took = recorded.took.contains(key) && (is_bag || !is_of_bag);
+    if (!is_asked || has_effect || took) continue;
+    throw input::Error(asked.source, "{} has no effect: {}; remove it", key, why);
+  }
 }
 
 /// With the files of a neutral folder (NEUTRAL.md) in place of keys that are not given.
@@ -396,20 +437,18 @@ void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<
   }
   sort_by_time(poses, "poses", file.string(), recorded.tally);
   drop_held(poses, recorded.tally);
-  std::vector<double> ways = ways_of(poses);
+  const std::vector<double> ways = ways_of(poses);
   const double usual_way = usual(ways).value_or(0);
-  const std::vector<std::int64_t> times_ns = stamps_of(poses);
+  ReadingTimes times{stamps_of(poses), "poses", outside};
+  times.is_known = [&](std::size_t i) { return ways[i - 1] <= 1.5 * usual_way; };
   std::optional<Vector3d> up_W = level;
   // The vehicle on which the camera is mounted is upright at the first pose.
   if (asked.mount_rpy_rad) {
     if (asked.camera_height_m) recorded.took.insert("mount");
     up_W = poses.front().T_WC.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
   }
-  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
-  keep_within(motion->first_ns(), motion->last_ns(), outside, recorded);
-  leave_out_gaps(
-      times_ns, "poses", [&](std::size_t i) { return ways[i - 1] <= 1.5 * usual_way; }, recorded);
-  recorded.motion = std::move(motion);
+  recorded.motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
+  keep_within(times, recorded);
 }
 
 void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
@@ -423,10 +462,10 @@ void move_by_readings(const scenario::RecordingSource& asked, const fs::path& fi
   require_start(recorded, readings.imu.back().t_ns - first_ns, file);
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += zero_ns;
   const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
-  keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
-              "pictures are outside of the IMU's time and are left out", recorded);
-  leave_out_gaps(
-      stamps_of(readings.imu), "IMU's readings", [](std::size_t) { return false; }, recorded);
+  keep_within(
+      {stamps_of(readings.imu), "IMU's readings",
+       "pictures are outside of the IMU's time and are left out", kBehindReadings_ns, start_ns},
+      recorded);
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
   begin_at(start_ns, readings);
   sim::Calibration calibration;

@@ -51,55 +51,41 @@ void read_frames(const fs::path& camera, const TableTimes& times, Recorded& reco
   take_list(table, times.unit_ns(table, 0, recorded.tally), picture, recorded);
 }
 
-/// Start of dead reckoning, with the biases known there.
-struct Start {
-  std::int64_t t_ns = 0;
-  Eigen::Matrix3d R_WS = Eigen::Matrix3d::Identity();
-  Vector3d v_WS_mps = Vector3d::Zero();
-  Vector3d gyro_bias_radps = Vector3d::Zero();
-  Vector3d accel_bias_mps2 = Vector3d::Zero();
-};
-
 /// A start upright according to the accelerometer: at rest for the given or detected time, else at
 /// the given speed along the optical axis.
-Start start_by_readings(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
-                        const Eigen::Matrix3d& R_BC, const scenario::RecordingSource& asked,
-                        Tally& tally) {
+TrueState start_by_readings(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
+                            const Eigen::Matrix3d& R_BC, const scenario::RecordingSource& asked,
+                            Tally& tally) {
   const auto first = std::ranges::lower_bound(imu, t_ns, {}, &sim::ImuSample::t_ns);
   const double speed_mps = asked.speed_mps.value_or(0);
   const auto rest = speed_mps != 0 && !asked.at_rest_s
                         ? std::nullopt
                         : rest_at_start({first, imu.end()}, asked.at_rest_s, kGravity_mps2);
+  TrueState start;
+  start.t_ns = t_ns;
   if (rest) {
     tell_rest(*rest, tally);
-    return {t_ns, rest->R_WS, speed_mps * (rest->R_WS * R_BC.col(2)), rest->gyro_bias_radps,
-            rest->accel_bias_mps2};
+    start.state.q_WB = rest->q_WS;
+    start.gyro_bias_radps = rest->gyro_bias_radps;
+    start.accel_bias_mps2 = rest->accel_bias_mps2;
+  } else {
+    if (first == imu.end()) {
+      throw std::runtime_error(
+          "the IMU has no reading at the first picture; give both the times of one clock");
+    }
+    const Beginning beginning = beginning_of({first, imu.end()});
+    const bool is_at_rest = speed_mps == 0 && beginning.is_still();
+    tally.add(
+        is_at_rest
+            ? "recordings have no truth to start from: at rest, upright as the accelerometer says"
+            : "recordings start while they move: upright as the accelerometer says, and the "
+              "gyroscope's bias counts as 0",
+        fmt::format("{} readings", beginning.count));
+    start.state.q_WB = sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized();
+    if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
   }
-  if (first == imu.end()) {
-    throw std::runtime_error(
-        "the IMU has no reading at the first picture; give both the times of one clock");
-  }
-  const Beginning beginning = beginning_of({first, imu.end()});
-  const bool is_at_rest = speed_mps == 0 && beginning.is_still();
-  tally.add(is_at_rest
-                ? "recordings have no truth to start from: at rest, upright as the accelerometer "
-                  "says"
-                : "recordings start while they move: upright as the accelerometer says, and the "
-                  "gyroscope's bias counts as 0",
-            fmt::format("{} readings", beginning.count));
-  Start start{.t_ns = t_ns};
-  start.R_WS =
-      sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized().toRotationMatrix();
-  start.v_WS_mps = speed_mps * (start.R_WS * R_BC.col(2));
-  if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
+  start.state.v_WB_mps = speed_mps * (start.state.q_WB.toRotationMatrix() * R_BC.col(2));
   return start;
-}
-
-Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
-  const auto at = std::ranges::lower_bound(truth, t_ns, {}, &TrueState::t_ns);
-  const TrueState& state = at == truth.end() ? truth.back() : *at;
-  return {state.t_ns, state.state.q_WB.toRotationMatrix(), state.state.v_WB_mps,
-          state.gyro_bias_radps, state.accel_bias_mps2};
 }
 
 /// A generated sequence repeats `lcs.json` in each sensor.yaml for other readers. Throws if an edit
@@ -110,57 +96,50 @@ void require_same(const fs::path& mav, const std::string& camera,
     constexpr double kRounding = 1e-9;
     return std::abs(said - number) <= kRounding * std::max(1.0, std::abs(number));
   };
-  const auto read = [&](const std::string& sensor, const sim::Pose& T_BS, const auto& check) {
-    const fs::path file = mav / sensor / "sensor.yaml";
-    if (!fs::exists(file)) return;
-    const SensorCalibration said = read_calibration(file);
-    const auto require = [&](bool same, const char* key) {
-      if (same) return;
-      const auto at = said.keys.find(key);
-      throw input::Error(at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
-                         "{0} is not as {1} of the sequence says; generate the sequence again, or "
-                         "take {1} away to replay it by its other files alone",
-                         key, sequence::kSettingsFile);
-    };
+  fs::path file;
+  SensorCalibration said;  // in it
+  const auto require = [&](bool same, const char* key) {
+    if (same) return;
+    const auto at = said.keys.find(key);
+    throw input::Error(at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
+                       "{0} is not as {1} of the sequence says; generate the sequence again, or "
+                       "take {1} away to replay it by its other files alone",
+                       key, sequence::kSettingsFile);
+  };
+  const auto read = [&](const std::string& sensor, const sim::Pose& T_BS) {
+    file = mav / sensor / "sensor.yaml";
+    if (!fs::exists(file)) return false;
+    said = read_calibration(file);
     require(
         said.T_BS && said.T_BS->R.isApprox(T_BS.R, 1e-9) && (said.T_BS->p - T_BS.p).norm() < 1e-9,
         "T_BS");
-    check(said, require);
+    return true;
   };
-  const auto nothing_else = [](const SensorCalibration&, const auto&) {};
   const sim::Calibration& told = exact.calibration;
-  read(camera, told.T_BS.inverse() * told.T_BC,
-       [&](const SensorCalibration& said, const auto& require) {
-         const double rate_hz = exact.scenario.camera.rate_hz;
-         require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
-         if (!said.lens) return;
-         const Lens& lens = *said.lens;
-         const Lens& own = exact.lens;
-         require(is_same(lens.fu_px, own.fu_px) && is_same(lens.fv_px, own.fv_px) &&
-                     is_same(lens.cu_px, own.cu_px) && is_same(lens.cv_px, own.cv_px),
-                 "intrinsics");
-         const cv::Size size_px(lens.width_px, lens.height_px);
-         require(size_px.empty() || size_px == cv::Size(own.width_px, own.height_px), "resolution");
-         const bool is_fisheye = own.distortion == Lens::Distortion::equidistant;
-         require(is_fisheye == (lens.distortion == Lens::Distortion::equidistant),
-                 "distortion_model");
-         for (std::size_t i = 0; i < std::max(lens.coefficients.size(), own.coefficients.size());
-              ++i) {
-           const auto at = [i](const Lens& of) {
-             return i < of.coefficients.size() ? of.coefficients[i] : 0;
-           };
-           require(is_same(at(lens), at(own)), "distortion_coefficients");
-         }
-       });
-  read("imu0", {}, [&](const SensorCalibration& said, const auto& require) {
-    if (!said.noise) return;
+  if (read(camera, told.T_BS.inverse() * told.T_BC)) {
+    const double rate_hz = exact.scenario.camera.rate_hz;
+    require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
+    Lens own = exact.lens, lens = said.lens.value_or(own);
+    require(is_same(lens.fu_px, own.fu_px) && is_same(lens.fv_px, own.fv_px) &&
+                is_same(lens.cu_px, own.cu_px) && is_same(lens.cv_px, own.cv_px),
+            "intrinsics");
+    const cv::Size size_px(lens.width_px, lens.height_px);
+    require(size_px.empty() || size_px == cv::Size(own.width_px, own.height_px), "resolution");
+    constexpr auto kFisheye = Lens::Distortion::equidistant;
+    require((own.distortion == kFisheye) == (lens.distortion == kFisheye), "distortion_model");
+    own.coefficients.resize(std::max(lens.coefficients.size(), own.coefficients.size()));
+    lens.coefficients.resize(own.coefficients.size());
+    require(std::ranges::equal(lens.coefficients, own.coefficients, is_same),
+            "distortion_coefficients");
+  }
+  if (read("imu0", {}) && said.noise) {
     for (const auto& [key, member] : sequence::kImuNoise) {
       if (!said.keys.contains(key)) continue;  // turn-on biases, which Kalibr lacks
       require((*said.noise).*member == exact.scenario.imu.noise.*member, key);
     }
-  });
-  read("odometry0", told.T_BS.inverse(), nothing_else);
-  read(kTruthFolder, {}, nothing_else);
+  }
+  read("odometry0", told.T_BS.inverse());
+  read(kTruthFolder, {});
 }
 
 /// Sets the motion of a generated sequence from its own settings: the same bits as in the run.
@@ -228,7 +207,7 @@ std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recording
 }
 
 /// The accelerometer measures the acceleration against gravity: at rest it points up.
-void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>& imu,
+void require_gravity_down(const TrueState& start, const std::vector<sim::ImuSample>& imu,
                           const fs::path& file) {
   constexpr double kSpan_s = 1;
   Vector3d force_S = Vector3d::Zero();
@@ -236,7 +215,7 @@ void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>&
     const double since_s = 1e-9 * static_cast<double>(sample.t_ns - start.t_ns);
     if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
   }
-  if ((start.R_WS * force_S).z() >= 0) return;
+  if ((start.state.q_WB * force_S).z() >= 0) return;
   throw input::Error({file.string(), 0},
                      "by the attitude of the truth its accelerations point down, and at rest they "
                      "must point up; change their sign");
@@ -280,17 +259,19 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   // The truth is of the body; it may begin after the first picture.
   std::int64_t first_ns = std::max(recorded.frames.front().t_ns, readings.imu.front().t_ns);
   if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
-  keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
-              "pictures are from before the truth or outside of the IMU's time", recorded);
-  leave_out_gaps(
-      stamps_of(readings.imu), "IMU's readings", [](std::size_t) { return false; }, recorded);
+  keep_within({stamps_of(readings.imu), "IMU's readings",
+               "pictures are from before the truth or outside of the IMU's time",
+               kBehindReadings_ns, first_ns},
+              recorded);
   if (truth.empty()) recorded.took.insert("at_rest");
-  const Start start = truth.empty()
-                          ? start_by_readings(readings.imu, first_ns, T_BC.R, asked, recorded.tally)
-                          : start_by_truth(truth, first_ns);
+  const auto known = std::ranges::lower_bound(truth, first_ns, {}, &TrueState::t_ns);
+  const TrueState start =
+      truth.empty() ? start_by_readings(readings.imu, first_ns, T_BC.R, asked, recorded.tally)
+      : known == truth.end() ? truth.back()
+                             : *known;
   if (!truth.empty()) require_gravity_down(start, readings.imu, imu_file);
-  calibration.T_WB_start.R = start.R_WS;
-  calibration.v_WB_start_mps = start.v_WS_mps;
+  calibration.T_WB_start.R = start.state.q_WB.toRotationMatrix();
+  calibration.v_WB_start_mps = start.state.v_WB_mps;
   if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
     readings.odometry = read_odometry_csv(file, times, recorded.tally);
     recorded.took.insert("topics.odometry");

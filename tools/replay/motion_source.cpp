@@ -6,6 +6,24 @@
 #include <stdexcept>
 
 namespace lcs::replay {
+namespace {
+
+template <class Timed>
+struct Around {
+  const Timed &before, &after;  ///< the same one at its time, before the first and after the last
+  double share = 0;             ///< of `after`
+};
+template <class Timed>
+Around<Timed> around(std::int64_t t_ns, const std::vector<Timed>& items) {
+  const auto after = std::ranges::lower_bound(items, t_ns, {}, &Timed::t_ns);
+  if (after == items.end()) return {items.back(), items.back()};
+  if (after == items.begin() || after->t_ns == t_ns) return {*after, *after};
+  const Timed& before = *std::prev(after);
+  return {before, *after,
+          static_cast<double>(t_ns - before.t_ns) / static_cast<double>(after->t_ns - before.t_ns)};
+}
+
+}  // namespace
 
 SteadyMotion::SteadyMotion(double speed_mps, const std::optional<Vector3d>& mount_rpy_rad)
     : speed_mps_(speed_mps) {
@@ -82,8 +100,7 @@ std::vector<MotionSource::Reading> SensorMotion::other_readings() const {
   all.push_back({"its accelerations have the other sign, as those of iOS: change it",
                  std::make_unique<SensorMotion>(settings_, upside_down, std::move(reversed))});
   all.push_back(
-      {"the camera's pose on the IMU is inverted (T_cam_imu or T_imu_cam): give its "
-       "inverse",
+      {"the camera's pose on the IMU is inverted (T_cam_imu or T_imu_cam): give its inverse",
        std::make_unique<SensorMotion>(settings_, inverted, readings_)});
   return all;
 }
@@ -98,21 +115,8 @@ NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const si
 }
 
 NavigationState NavigationMotion::state_at(std::int64_t t_ns) const {
-  const auto after = std::ranges::lower_bound(states_, t_ns, {}, &NavigationState::t_ns);
-  NavigationState state;
-  if (after == states_.begin()) {
-    state = states_.front();
-  } else if (after == states_.end()) {
-    state = states_.back();
-  } else {
-    const NavigationState& a = *std::prev(after);
-    const NavigationState& b = *after;
-    const double share = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
-    state.q_WB = a.q_WB.slerp(share, b.q_WB);
-    state.v_WB_mps = (1 - share) * a.v_WB_mps + share * b.v_WB_mps;
-  }
-  state.t_ns = t_ns;
-  return state;
+  const auto [a, b, share] = around(t_ns, states_);
+  return {t_ns, a.q_WB.slerp(share, b.q_WB), (1 - share) * a.v_WB_mps + share * b.v_WB_mps};
 }
 
 EgoMotion NavigationMotion::at(std::int64_t t_ns) {
@@ -176,12 +180,8 @@ PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vect
     : poses_(std::move(poses)), up_W_(up_W) {}
 
 sim::Pose PosesMotion::pose_at(std::int64_t t_ns) const {
-  const auto after = std::ranges::lower_bound(poses_, t_ns, {}, &CameraPose::t_ns);
-  if (after == poses_.end()) return poses_.back().T_WC;
-  if (after == poses_.begin() || after->t_ns == t_ns) return after->T_WC;
-  const CameraPose& a = *std::prev(after);
-  const CameraPose& b = *after;
-  const double share = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+  const auto [a, b, share] = around(t_ns, poses_);
+  if (share == 0) return a.T_WC;
   const Eigen::Quaterniond from(a.T_WC.R), to(b.T_WC.R);
   return {from.slerp(share, to).toRotationMatrix(), (1 - share) * a.T_WC.p + share * b.T_WC.p};
 }

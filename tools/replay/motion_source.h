@@ -129,9 +129,6 @@ class NavigationMotion : public MotionSource {
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override;
 
-  std::int64_t first_ns() const { return states_.front().t_ns; }
-  std::int64_t last_ns() const { return states_.back().t_ns; }
-
  private:
   NavigationState state_at(std::int64_t t_ns) const;
 
@@ -153,9 +150,6 @@ class PosesMotion : public MotionSource {
   std::optional<Vector3d> up_C() const override;
   /// As the world's poses in the camera, and by other orders of a quaternion's numbers.
   std::vector<Reading> other_readings() const override;
-
-  std::int64_t first_ns() const { return poses_.front().t_ns; }
-  std::int64_t last_ns() const { return poses_.back().t_ns; }
 
  private:
   sim::Pose pose_at(std::int64_t t_ns) const;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "tools/files/csv.h"
 #include "tools/replay/motion_source.h"
@@ -128,37 +127,35 @@ std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
 
 PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& tally) {
   const TextTable table = read_table(file);
-  const auto refuse = [&](int line, const std::string& why) {
-    throw input::Error({file.string(), line}, why);
-  };
-  if (table.rows.empty()) refuse(0, "holds no pose; give a line for each");
+  const std::string path = file.string();
+  if (table.rows.empty()) throw input::Error({path, 0}, "holds no pose; give a line for each");
   const TextTable::Row& first = table.rows.front();
+  const input::Source where{path, first.line};
   const std::size_t fields = first.fields.size();
   const std::optional<Places> named = named_places(table);
   PosesFile poses;
   poses.of_body = table.find("p_RS_R_x").has_value();
   poses.timed = named || fields == kTumFields;
   poses.numbered = !poses.timed && fields == kMatrix + 1;
-  const bool is_vins = !named && table.separator == ',' && first.fields.back().empty();
-  if (is_vins) {
-    refuse(first.line,
-           fmt::format(
-               "lines that end with a comma are of VINS-Mono or VINS-Fusion, with poses of the "
-               "IMU; write time [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,{} as "
-               "its first line, and give the camera's place on the IMU by a calibration",
-               fields > kTumFields + 1 ? "vx,vy,vz," : ""));
+  if (!named && table.separator == ',' && first.fields.back().empty()) {
+    throw input::Error(
+        where,
+        "lines that end with a comma are of VINS-Mono or VINS-Fusion, with poses of the IMU; write "
+        "time [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,{} as its first line, "
+        "and give the camera's place on the IMU by a calibration",
+        fields > kTumFields + 1 ? "vx,vy,vz," : "");
   }
   if (!poses.timed && fields != kThreeRows && fields != kMatrix && fields != kMatrix + 1) {
-    refuse(first.line,
-           fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
+    throw input::Error(where,
+                       "a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
                        "a matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, "
                        "or a header with time, x, y, z, qx, qy, qz, qw",
-                       fields));
+                       fields);
   }
   if (!named && fields == kTumFields && table.separator == ',') {
-    refuse(first.line,
-           "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, w last; give "
-           "it a header, as time, x, y, z, qx, qy, qz, qw");
+    throw input::Error(where,
+                       "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, "
+                       "w last; give it a header, as time, x, y, z, qx, qy, qz, qw");
   }
   constexpr double kSlowest_hz = 0.6, kFastest_hz = 590;
   TimeColumn time;
@@ -170,19 +167,18 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   }
   for (const TextTable::Row& row : table.rows) {
     auto& line = poses.lines.emplace_back();
-    if (poses.timed) {
-      if (row.fields.size() == fields)
-        line = quaternion_line(row, named.value_or(kTumPlaces), time);
-    } else {
+    if (!poses.timed) {
       line = matrix_line(row, fields > kMatrix ? 1 : 0, fields > kMatrix ? kMatrix : fields);
+    } else if (row.fields.size() == fields) {
+      line = quaternion_line(row, named.value_or(kTumPlaces), time);
     }
     if (!line) tally.add("rows cannot be read and are left out", table.at(row));
   }
   require_velocities(table, poses);
   if (std::ranges::none_of(poses.lines, [](const auto& line) { return line.has_value(); })) {
-    refuse(0,
-           fmt::format("holds no pose: {}; give a line of 8 numbers (TUM) or 12 (KITTI) for each",
-                       table.columns()));
+    throw input::Error({path, 0},
+                       "holds no pose: {}; give a line of 8 numbers (TUM) or 12 (KITTI) for each",
+                       table.columns());
   }
   return poses;
 }

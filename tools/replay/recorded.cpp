@@ -1,8 +1,5 @@
 #include "tools/replay/recorded.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -229,11 +226,13 @@ void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tall
   }
 }
 
-void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
-                 Recorded& recorded) {
+void keep_within(const ReadingTimes& readings, Recorded& recorded) {
+  constexpr double kPeriods = 4, kFrames = 2;
+  const std::vector<std::int64_t>& times_ns = readings.t_ns;
+  const std::int64_t first_ns = readings.first_ns, last_ns = times_ns.back() + readings.behind_ns;
   std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
     const bool is_outside = frame.t_ns < first_ns || frame.t_ns > last_ns;
-    if (is_outside) recorded.tally.add(what, frame.name());
+    if (is_outside) recorded.tally.add(readings.outside, frame.name());
     return is_outside;
   });
   if (recorded.frames.empty()) {
@@ -242,11 +241,6 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
                                           "{} to {} ns; give both the times of one clock",
                                           first_ns, last_ns)));
   }
-}
-
-void leave_out_gaps(const std::vector<std::int64_t>& times_ns, const std::string& what,
-                    const std::function<bool(std::size_t)>& is_known, Recorded& recorded) {
-  constexpr double kPeriods = 4, kFrames = 2;
   const auto periods_s = [](const std::vector<std::int64_t>& of, double count) {
     return count / usual_rate_hz(of).value_or(1);
   };
@@ -255,31 +249,29 @@ void leave_out_gaps(const std::vector<std::int64_t>& times_ns, const std::string
   for (std::size_t i = 1; i < times_ns.size(); ++i) {
     const std::int64_t from_ns = times_ns[i - 1], to_ns = times_ns[i];
     const double silent_s = 1e-9 * static_cast<double>(to_ns - from_ns);
-    if (silent_s <= gap_s || is_known(i)) continue;
+    if (silent_s <= gap_s || readings.is_known(i)) continue;
     const auto left_out = std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
       return frame.t_ns > from_ns && frame.t_ns < to_ns;
     });
     if (left_out == 0) continue;
-    recorded.tally.add("pictures are in gaps of the " + what + " and are left out",
+    recorded.tally.add("pictures are in gaps of the " + readings.name + " and are left out",
                        fmt::format("after {:.3f} s of silence from {} ns on", silent_s, from_ns),
                        static_cast<int>(left_out));
   }
   if (recorded.frames.empty()) {
-    throw std::runtime_error(
-        fmt::format("all pictures are in gaps of the {}; give both the times of one clock", what));
+    throw std::runtime_error(fmt::format(
+        "all pictures are in gaps of the {}; give both the times of one clock", readings.name));
   }
 }
 
 void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
                         Recorded& recorded) {
   sort_by_time(states, "states of the navigation", "the navigation's", recorded.tally);
-  const std::vector<std::int64_t> times_ns = stamps_of(states);
-  auto motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
-  keep_within(motion->first_ns(), motion->last_ns(),
-              "pictures are outside of the navigation's time and are left out", recorded);
-  leave_out_gaps(
-      times_ns, "states of the navigation", [](std::size_t) { return false; }, recorded);
-  recorded.motion = std::move(motion);
+  std::vector<std::int64_t> times_ns = stamps_of(states);
+  recorded.motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
+  keep_within({std::move(times_ns), "states of the navigation",
+               "pictures are outside of the navigation's time and are left out"},
+              recorded);
 }
 
 }  // namespace lcs::replay

@@ -221,10 +221,6 @@ const RecordingLayout& layout_of(const scenario::RecordingSource& asked);
 /// \throws input::Error; one message lists all missing inputs.
 Recorded read_recorded(const scenario::Scenario& asked);
 
-/// Refuses what was asked for and has no effect. \throws input::Error
-void require_effects(const scenario::RecordingSource& asked, const RecordingLayout& layout,
-                     bool exact_motion, const Recorded& recorded);
-
 /// Whether the user provides the camera's motion. A speed beside a topic of an IMU is its start.
 bool motion_is_asked(const scenario::RecordingSource& asked);
 
@@ -288,18 +284,22 @@ void take_list(const TextTable& list, std::int64_t unit_ns,
 /// \param list file of the frames. \throws input::Error if it has none.
 void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tally& tally);
 
-/// Removes frames outside a time span, and counts them.
+/// Readings that tell the motion, for which frames are kept.
+struct ReadingTimes {
+  std::vector<std::int64_t> t_ns;
+  std::string name;                      ///< as "poses"
+  const char* outside;                   ///< what is told of the frames outside
+  std::int64_t behind_ns = 0;            ///< for which the last reading is held
+  std::int64_t first_ns = t_ns.front();  ///< of the frames that are kept
+  /// Whether the motion over the gap before a reading is known, by its index: the camera stands.
+  std::function<bool(std::size_t)> is_known = [](std::size_t) { return false; };
+};
+/// Removes frames outside the time of readings and in gaps between them, and counts them. A gap is
+/// longer than four usual periods of the readings, and than two of the frames.
 /// \throws std::runtime_error if none is left.
-void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what, Recorded& recorded);
+void keep_within(const ReadingTimes& readings, Recorded& recorded);
 
-/// Removes frames in the gaps between the times of readings, and counts them. A gap is longer than
-/// four usual periods of the readings, and than two of the frames.
-/// \param what the readings are, as "poses". \param is_known whether the motion over the gap before
-///   a reading is known, by its index: where the camera stands.
-void leave_out_gaps(const std::vector<std::int64_t>& times_ns, const std::string& what,
-                    const std::function<bool(std::size_t)>& is_known, Recorded& recorded);
-
-/// Largest time of a picture after the last reading, which is held until then.
+/// Largest time of a picture after the last reading of an IMU, which is held until then.
 inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
 
 /// Sets the motion from `asked.poses`. \param times_known of the pictures.
