@@ -132,7 +132,8 @@ TEST_F(SensorTable, WithAUnitThatContradictsTheRateIsRefused) {
 TEST_F(SensorTable, WithAnotherRateThanIsStatedIsToldSo) {
   test::write(path_, "t [ms]\n0\n100\n200\n300\n");
   const TextTable table = read_table(path_);
-  EXPECT_EQ(time_unit_of(table, 0, "", {1, 100, 20, "sensor.yaml"}, {}, tally_), kMillisecond_ns);
+  EXPECT_EQ((TableTimes{"", {1, 100, 20, "sensor.yaml"}, {}}.unit_ns(table, 0, tally_)),
+            kMillisecond_ns);
   EXPECT_NE(tally_.lines().at(0).find("has 10 rows a second, and sensor.yaml states 20 Hz"),
             std::string::npos);
 }

@@ -104,17 +104,14 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
   const bool by_poses = !motion_is_asked(asked) && !by_imu && fs::exists(made / kPosesFile);
   // With poses EuRoC's own motion is not read; without any motion there is none to read.
   if (!motion_is_asked(asked) && !by_imu) inner.poses = made / kPosesFile;
-  const auto read = [&] {
-    Recorded recorded = read_euroc(inner, exact_motion);
-    if (by_poses) {
-      move_by_poses(inner, true, recorded);
-      recorded.took.insert({"topics.poses", "topics.world"});
-    }
-    return recorded;
-  };
   Recorded recorded = [&] {
     try {
-      return read();
+      Recorded read = read_euroc(inner, exact_motion);
+      if (by_poses) {
+        move_by_poses(inner, true, read);
+        read.took.insert({"topics.poses", "topics.world"});
+      }
+      return read;
     } catch (const input::Error& error) {
       std::string said = error.what();
       if (!said.starts_with(folder->path().string())) throw;

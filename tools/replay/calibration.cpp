@@ -1,14 +1,12 @@
 #include "tools/replay/calibration.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/reader.h"
 #include "tools/replay/poses_file.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {
@@ -89,6 +87,8 @@ sim::Pose pose_in(const Value& value, const std::string& path) {
   return {*R, rows.col(3)};
 }
 
+using Names = std::initializer_list<const char*>;
+
 /// Reads keys of one map under any of their names.
 class Keys {
  public:
@@ -97,7 +97,7 @@ class Keys {
   const input::Source& where() const { return reader_.where(); }
   bool has(std::string_view key) { return reader_.find(key) != nullptr; }
   /// The first of the names that is a key; null if none is.
-  const Value* any_of(std::initializer_list<const char*> names) {
+  const Value* any_of(Names names) {
     for (const char* name : names) {
       if (const Value* value = reader_.find(name)) {
         found_ = name;
@@ -106,8 +106,7 @@ class Keys {
     }
     return nullptr;
   }
-  std::optional<double> number(std::initializer_list<const char*> names,
-                               const Quantity& quantity = kAny) {
+  std::optional<double> number(Names names, const Quantity& quantity = kAny) {
     const Value* value = any_of(names);
     if (!value) return std::nullopt;
     return input::as_quantity(*value, path(), quantity);
@@ -117,15 +116,15 @@ class Keys {
     if (!value) throw Error(where(), "{} is missing; give it", name);
     return input::as_quantity(*value, path(), kAny);
   }
-  std::vector<double> list(std::initializer_list<const char*> names) {
+  std::vector<double> list(Names names) {
     const Value* value = any_of(names);
     return value ? numbers_in(*value, path()) : std::vector<double>{};
   }
-  std::string text(std::initializer_list<const char*> names) {
+  std::string text(Names names) {
     const Value* value = any_of(names);
     return value ? input::as_text(*value, path()) : "";
   }
-  std::optional<sim::Pose> pose(std::initializer_list<const char*> names) {
+  std::optional<sim::Pose> pose(Names names) {
     const Value* value = any_of(names);
     if (!value) return std::nullopt;
     return pose_in(*value, path());
@@ -138,9 +137,8 @@ class Keys {
   std::string found_;
 };
 
-void set_size(Keys& keys, std::initializer_list<const char*> widths,
-              std::initializer_list<const char*> heights, Lens& lens) {
-  const auto pixels = [&](std::initializer_list<const char*> names) {
+void set_size(Keys& keys, Names widths, Names heights, Lens& lens) {
+  const auto pixels = [&](Names names) {
     const Value* value = keys.any_of(names);
     return value ? static_cast<int>(input::as_integer(*value, keys.path(), 1, kMostSide_px)) : 0;
   };
@@ -151,10 +149,9 @@ void set_size(Keys& keys, std::initializer_list<const char*> widths,
 /// \param model a tool's name of a distortion. \throws input::Error for one that is not supported.
 void set_distortion(std::string model, std::vector<double> coefficients, const input::Source& where,
                     Lens& lens) {
-  std::ranges::transform(model, model.begin(), [](unsigned char c) {
-    return c == '-' ? '_' : static_cast<char>(std::tolower(c));
-  });
-  const auto is_one_of = [&](std::initializer_list<const char*> names) {
+  model = in_lower_case(model);
+  std::ranges::replace(model, '-', '_');
+  const auto is_one_of = [&](Names names) {
     return std::ranges::find(names, model) != names.end();
   };
   const bool is_bent = std::ranges::any_of(coefficients, [](double k) { return k != 0; });
@@ -197,21 +194,17 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   if (!intrinsics) return;
   std::vector<double> numbers = numbers_in(*intrinsics, keys.path());
   const std::string model = keys.text({"camera_model"});
-  std::size_t before = 0;
-  if (model == "omni") {
-    before = 1;
-  } else if (model == "ds") {
-    before = 2;
-  } else if (model != "" && model != "pinhole") {
+  const std::map<std::string, std::pair<std::size_t, const char*>> models{
+      {"", {0, ""}}, {"pinhole", {0, ""}}, {"omni", {1, "xi, "}}, {"ds", {2, "xi, alpha, "}}};
+  const auto found = models.find(model);
+  if (found == models.end()) {
     throw Error(intrinsics->where,
                 "the camera_model '{}' is not supported; give a pinhole, omni or ds", model);
   }
+  const auto [before, names] = found->second;
   if (numbers.size() != before + 4) {
     throw Error(intrinsics->where, "intrinsics are {} numbers; give {}fu, fv, cu, cv",
-                numbers.size(),
-                before == 0   ? ""
-                : before == 1 ? "xi, "
-                              : "xi, alpha, ");
+                numbers.size(), names);
   }
   Lens& lens = calibration.lens.emplace(
       pinhole({numbers[before], numbers[before + 1], numbers[before + 2], numbers[before + 3]},
@@ -273,20 +266,19 @@ void read_matrix(Keys& keys, const Value& matrix, SensorCalibration& calibration
 /// ORB-SLAM2 and 3: Camera.fx, or Camera1.fx, and a type.
 void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& calibration) {
   const auto number = [&](const char* name) { return keys.require(prefix + name); };
-  const auto optional = [&](const char* name) {
-    return keys.number({(prefix + name).c_str()}).value_or(0);
-  };
   Lens& lens = calibration.lens.emplace(
       pinhole({number("fx"), number("fy"), number("cx"), number("cy")}, keys.where()));
   set_size(keys, {"Camera.width"}, {"Camera.height"}, lens);
   const std::string type = keys.text({"Camera.type"});
+  const auto bend = [&](const char* model, Names names) {
+    std::vector<double> k;
+    for (const char* name : names) k.push_back(keys.number({(prefix + name).c_str()}).value_or(0));
+    set_distortion(model, k, keys.where(), lens);
+  };
   if (type == "KannalaBrandt8") {
-    set_distortion("equidistant", {optional("k1"), optional("k2"), optional("k3"), optional("k4")},
-                   keys.where(), lens);
+    bend("equidistant", {"k1", "k2", "k3", "k4"});
   } else if (type == "" || type == "PinHole") {
-    set_distortion("radtan",
-                   {optional("k1"), optional("k2"), optional("p1"), optional("p2"), optional("k3")},
-                   keys.where(), lens);
+    bend("radtan", {"k1", "k2", "p1", "p2", "k3"});
   } else if (type != "Rectified") {
     throw Error(keys.where(),
                 "the Camera.type '{}' is not supported; give PinHole, KannalaBrandt8 or Rectified",
@@ -298,52 +290,47 @@ void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& cal
 
 /// camodocal, as in VINS: a model_type with its parameters.
 void read_camodocal(Keys& keys, const std::string& type, SensorCalibration& calibration) {
-  const auto part = [&](const char* name) {
-    const Value* value = keys.any_of({name});
-    if (!value) throw Error(keys.where(), "{} is missing; give it", name);
-    return Keys(*value, name);
+  const struct {
+    const char* type;
+    Names intrinsics;
+    const char *distortion, *bent_by;
+    Names coefficients;
+  } models[] = {
+      {"PINHOLE", {"fx", "fy", "cx", "cy"}, "radtan", "distortion", {"k1", "k2", "p1", "p2"}},
+      {"MEI", {"gamma1", "gamma2", "u0", "v0"}, "radtan", "distortion", {"k1", "k2", "p1", "p2"}},
+      {"KANNALA_BRANDT",
+       {"mu", "mv", "u0", "v0"},
+       "equidistant",
+       "projection",
+       {"k2", "k3", "k4", "k5"}},
   };
-  Lens& lens = calibration.lens.emplace();
-  lens.source = keys.where();
-  set_size(keys, {"image_width"}, {"image_height"}, lens);
-  Keys projection = part("projection_parameters");
-  const auto set = [&](const char* fu, const char* fv, const char* cu, const char* cv) {
-    lens.fu_px = projection.require(fu);
-    lens.fv_px = projection.require(fv);
-    lens.cu_px = projection.require(cu);
-    lens.cv_px = projection.require(cv);
-  };
-  const auto radtan = [&] {
-    Keys distortion = part("distortion_parameters");
-    set_distortion("radtan",
-                   {distortion.require("k1"), distortion.require("k2"), distortion.require("p1"),
-                    distortion.require("p2")},
-                   keys.where(), lens);
-  };
-  if (type == "PINHOLE") {
-    set("fx", "fy", "cx", "cy");
-    radtan();
-  } else if (type == "MEI") {
-    set("gamma1", "gamma2", "u0", "v0");
-    lens.xi = part("mirror_parameters").require("xi");
-    radtan();
-  } else if (type == "KANNALA_BRANDT") {
-    set("mu", "mv", "u0", "v0");
-    set_distortion("equidistant",
-                   {projection.require("k2"), projection.require("k3"), projection.require("k4"),
-                    projection.require("k5")},
-                   keys.where(), lens);
-  } else {
+  const auto model = std::ranges::find(models, type, [](const auto& one) { return one.type; });
+  if (model == std::end(models)) {
     throw Error(keys.where(),
                 "the model_type '{}' is not supported; give PINHOLE, MEI or KANNALA_BRANDT", type);
   }
+  const auto numbers = [&](std::string part, Names names) {
+    part += "_parameters";
+    const Value* value = keys.any_of({part.c_str()});
+    if (!value) throw Error(keys.where(), "{} is missing; give it", part);
+    Keys of_part(*value, part);
+    std::vector<double> all;
+    for (const char* name : names) all.push_back(of_part.require(name));
+    return all;
+  };
+  const std::vector<double> K = numbers("projection", model->intrinsics);
+  Lens& lens = calibration.lens.emplace(pinhole({K[0], K[1], K[2], K[3]}, keys.where()));
+  set_size(keys, {"image_width"}, {"image_height"}, lens);
+  if (type == "MEI") lens.xi = numbers("mirror", {"xi"}).front();
+  set_distortion(model->distortion, numbers(model->bent_by, model->coefficients), keys.where(),
+                 lens);
 }
 
 /// Four densities of Kalibr, VINS or ORB-SLAM; absent if there is none of them.
 std::optional<scenario::ImuNoise> read_noise(Keys& keys) {
   scenario::ImuNoise noise;
   const struct {
-    std::initializer_list<const char*> names;
+    Names names;
     double& value;
   } densities[] = {
       {{"gyroscope_noise_density", "gyr_n", "IMU.NoiseGyro"}, noise.gyroscope_noise_density},

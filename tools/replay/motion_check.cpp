@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
@@ -26,8 +25,7 @@ constexpr double kContradicts = 0.4;
 constexpr double kSame = 0.01;  // difference of shares that fit alike
 
 /// Share of the corners that are on the line on which the motion sees them, by any depth.
-template <class Tracks>
-double explained(const Tracks& tracks, const RigidMotion& motion, double tolerance) {
+double explained(const auto& tracks, const RigidMotion& motion, double tolerance) {
   int met = 0;
   for (const auto& [before, now] : tracks) {
     const Vector3d ray = motion.R * before.homogeneous();
@@ -54,7 +52,7 @@ std::vector<Matrix3d> all_axes() {
 }
 
 /// \param axes its columns are the directions of x, y and z in the camera (x right, y down).
-std::string name_of(const Matrix3d& axes) {
+std::string directions_of(const Matrix3d& axes) {
   constexpr const char* kNames[3][2] = {{"right", "left"}, {"down", "up"}, {"ahead", "back"}};
   std::string text;
   for (int i = 0; i < 3; ++i) {
@@ -171,14 +169,9 @@ void MotionCheck::finish(const sim::Rectifier& rectifier, std::int64_t t_ns, dou
   }
   if (step_.tracks.size() < kFewestTracks) return;
   steps_.push_back(step_);
+  told_.push_back(step_.told);
   is_due_ = steps_.size() % kEnoughSteps == 0;
   if (steps_.size() >= kEnoughSteps) pause_ = kPause;
-}
-
-std::vector<RigidMotion> MotionCheck::told() const {
-  std::vector<RigidMotion> motions;
-  for (const Step& step : steps_) motions.push_back(step.told);
-  return motions;
 }
 
 double MotionCheck::share(const std::vector<RigidMotion>& motions, const Matrix3d& axes) const {
@@ -209,9 +202,9 @@ int MotionCheck::contradicted() const {
 void MotionCheck::require_right(const MotionSource& motion, const input::Source& where) const {
   constexpr double kFits = 0.4, kBetter = 0.1, kOtherAxes = 0.2;
   if (steps_.size() < kFewestSteps) return;
-  const double as_told = share(told(), Matrix3d::Identity());
+  const double as_told = share(told_, Matrix3d::Identity());
   const int wrong = contradicted();
-  Fit best = best_fit(told());
+  Fit best = best_fit(told_);
   // Left-handed axes are right as far as the camera moves in their plane.
   const bool are_axes_wrong = best.share > as_told + kOtherAxes;
   if (2 * static_cast<std::size_t>(wrong) <= steps_.size() && !are_axes_wrong) return;
@@ -238,7 +231,7 @@ void MotionCheck::require_right(const MotionSource& motion, const input::Source&
         kNeutralWay);
   } else if (best.axes != Matrix3d::Identity()) {
     remedy += fmt::format("{}its axes are {}, and must be x right, y down, z ahead: {}",
-                          remedy.empty() ? "" : "; ", name_of(best.axes), turn_by(best.axes));
+                          remedy.empty() ? "" : "; ", directions_of(best.axes), turn_by(best.axes));
   }
   throw input::Error(where, "the pictures contradict its motion in {} of {} steps; {}", wrong,
                      steps_.size(), remedy);
@@ -253,13 +246,13 @@ std::vector<std::string> MotionCheck::remarks() const {
         fmt::format("the pictures contradict the motion in {} of {} steps", wrong, steps_.size()));
   }
   if (steps_.size() >= kFewest) {
-    const double as_told = share(told(), Matrix3d::Identity());
-    const Fit best = best_fit(told());
+    const double as_told = share(told_, Matrix3d::Identity());
+    const Fit best = best_fit(told_);
     if (best.share > as_told + kBetter) {
       lines.push_back(fmt::format(
-          "the motion fits {:.0f} % of the corners, and with the axes {} it fits {:.0f} %: if they "
-          "are those, {}",
-          100 * as_told, name_of(best.axes), 100 * best.share, turn_by(best.axes)));
+          "the motion fits {:.0f} % of the corners, and with the axes {} it fits "
+          "{:.0f} %: if they are those, {}",
+          100 * as_told, directions_of(best.axes), 100 * best.share, turn_by(best.axes)));
     }
   }
   std::vector<double> levels, ways;
@@ -273,14 +266,14 @@ std::vector<std::string> MotionCheck::remarks() const {
   });
   if (repeated > 0) {
     lines.push_back(
-        fmt::format("{} of {} pictures repeat the one before, and the camera is told "
-                    "to move: leave them out, with their times",
+        fmt::format("{} of {} pictures repeat the one before, and the camera is told to move: "
+                    "leave them out, with their times",
                     repeated, changes_.size()));
   }
   if (2 * combed_ > looked_at_) {
     lines.push_back(
-        fmt::format("the lines alternate in {} of {} pictures: they are interlaced, so "
-                    "take every second line; or raw, so give bayer",
+        fmt::format("the lines alternate in {} of {} pictures: they are interlaced, so take every "
+                    "second line; or raw, so give bayer",
                     combed_, looked_at_));
   }
   return lines;

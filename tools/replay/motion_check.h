@@ -61,13 +61,13 @@ class MotionCheck {
 
   void begin(const cv::Mat1b& grey, std::int64_t t_ns);
   void finish(const sim::Rectifier& rectifier, std::int64_t t_ns, double moved_px);
-  std::vector<RigidMotion> told() const;
   /// Share of the corners that are close to where motions of these axes take them.
   double share(const std::vector<RigidMotion>& motions, const Eigen::Matrix3d& axes) const;
   Fit best_fit(const std::vector<RigidMotion>& motions) const;
   int contradicted() const;
 
   std::vector<Step> steps_;
+  std::vector<RigidMotion> told_;              ///< in each of them
   Step step_;                                  ///< in progress
   std::vector<cv::Point2f> began_px_, at_px_;  ///< of its corners
   cv::Mat1b last_;                             ///< picture

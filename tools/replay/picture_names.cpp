@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -38,10 +37,7 @@ struct Name {
 bool is_picture(const fs::path& file) {
   static const std::set<std::string> kKinds = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
                                                ".tiff", ".pgm", ".ppm",  ".webp"};
-  std::string kind = file.extension().string();
-  std::ranges::transform(kind, kind.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return kKinds.contains(kind);
+  return kKinds.contains(in_lower_case(file.extension().string()));
 }
 
 Name name_of(const fs::path& file) {

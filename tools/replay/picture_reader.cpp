@@ -28,15 +28,12 @@ cv::Mat decode(const fs::path& file, bool is_raw) {
 /// The upper 8 of the bits in use.
 cv::Mat to_8_bits(const cv::Mat& picture, int bits) {
   if (picture.depth() == CV_8U) return picture;
-  cv::Mat out(picture.size(), CV_MAKETYPE(CV_8U, picture.channels()));
-  for (int y = 0; y < picture.rows; ++y) {
-    const auto* from = picture.ptr<std::uint16_t>(y);
-    std::transform(from, from + picture.cols * picture.channels(), out.ptr<unsigned char>(y),
-                   [bits](std::uint16_t value) {
-                     return static_cast<unsigned char>(std::min(value >> (bits - 8), 255));
-                   });
-  }
-  return out;
+  const cv::Mat1w values = picture.reshape(1);
+  cv::Mat1b upper(values.size());
+  std::ranges::transform(values, upper.begin(), [bits](std::uint16_t value) {
+    return static_cast<unsigned char>(std::min(value >> (bits - 8), 255));
+  });
+  return upper.reshape(picture.channels());
 }
 
 /// The value that nearly no pixel exceeds: some are hot.

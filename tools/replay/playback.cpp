@@ -35,10 +35,9 @@ void require_plain_lens(const Lens& lens, const cv::Size& size_px) {
       "if its coefficients are a fisheye's (k1 to k4), give distortion_model: equidistant, or the "
       "option equidistant; else calibrate over the whole picture";
   if (std::max(std::abs(k(2)), std::abs(k(3))) > kMostTangential) {
-    throw input::Error(lens.source,
-                       "the distortion's p1 and p2 are {} and {}, and those of a lens are near 0; "
-                       "{}",
-                       k(2), k(3), kFisheye);
+    throw input::Error(
+        lens.source, "the distortion's p1 and p2 are {} and {}, and those of a lens are near 0; {}",
+        k(2), k(3), kFisheye);
   }
   const auto bent = [&](double r) {
     const double r2 = r * r;
@@ -50,10 +49,10 @@ void require_plain_lens(const Lens& lens, const cv::Size& size_px) {
   double farthest = 0;
   for (double r = 0; r < kFarthest && bent(r) >= farthest; r += kStep) farthest = bent(r);
   if (farthest >= kInside * corner) return;
-  throw input::Error(lens.source,
-                     "the radial distortion folds back at {:.0f} % of the way to the picture's "
-                     "corner; {}",
-                     100 * farthest / corner, kFisheye);
+  throw input::Error(
+      lens.source,
+      "the radial distortion folds back at {:.0f} % of the way to the picture's corner; {}",
+      100 * farthest / corner, kFisheye);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>

@@ -3,21 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 #include <numbers>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "filter/ego_motion/imu_watch.h"
 #include "tools/files/csv.h"
-#include "tools/replay/motion_source.h"
-#include "tools/replay/recorded.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {
@@ -166,7 +160,7 @@ double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor)
 void require_possible(const std::vector<sim::ImuSample>& samples, const fs::path& file) {
   constexpr double kLeast_mps2 = 6, kMost_mps2 = 25, kFastTurn_radps = 10, kShare = 0.05;
   constexpr double kTilted_rad = 0.25, kBetter = 0.25, kDegree = std::numbers::pi / 180;
-  const auto refuse = [&](const std::string& why) { throw input::Error({file.string(), 0}, why); };
+  const input::Source where{file.string(), 0};
   std::vector<double> forces, rates;
   for (const sim::ImuSample& sample : samples) {
     forces.push_back(sample.accel_mps2.norm());
@@ -178,31 +172,33 @@ void require_possible(const std::vector<sim::ImuSample>& samples, const fs::path
   const double often_radps = *fast, usual_radps = *usual(rates);
   const double usual_mps2 = *usual(std::move(forces));
   if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual_mps2 < kLeast_mps2) {
-    refuse(
-        fmt::format("its angular rates have a size of {:.2f} and its accelerations of {:.2f}: the "
-                    "two seem interchanged; name the columns in a header",
-                    usual_radps, usual_mps2));
+    throw input::Error(where,
+                       "its angular rates have a size of {:.2f} and its accelerations of {:.2f}: "
+                       "the two seem interchanged; name the columns in a header",
+                       usual_radps, usual_mps2);
   }
   if (usual_mps2 >= ImuWatch::kLeast_g && usual_mps2 <= ImuWatch::kMost_g) {
-    refuse(fmt::format(
+    throw input::Error(
+        where,
         "accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 to have m/s^2 "
         "(and see whether rates are in rad/s), or put their unit into the header, as a_RS_S_x [g]",
-        usual_mps2));
+        usual_mps2);
   }
   if (usual_mps2 < kLeast_mps2 || usual_mps2 > kMost_mps2) {
-    refuse(fmt::format(
-        "accelerations have a size of {:.3g}, and an IMU at rest measures gravity, 9.81 "
-        "m/s^2; give the accelerometer's readings, gravity included, in m/s^2",
-        usual_mps2));
+    throw input::Error(where,
+                       "accelerations have a size of {:.3g}, and an IMU at rest measures gravity, "
+                       "9.81 m/s^2; give the accelerometer's readings, gravity included, in m/s^2",
+                       usual_mps2);
   }
   const double tilt_rad = tilt_error_rad(samples, 1);
   const bool is_tilted =
       tilt_rad > kTilted_rad && tilt_error_rad(samples, kDegree) < kBetter * tilt_rad;
   if (often_radps > kFastTurn_radps || is_tilted) {
-    refuse(fmt::format(
+    throw input::Error(
+        where,
         "its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no camera does "
         "for long{}; if they are in deg/s, put that into the header, as w_RS_S_x [deg/s]",
-        often_radps, is_tilted ? ", and contradict the accelerometer" : ""));
+        often_radps, is_tilted ? ", and contradict the accelerometer" : "");
   }
 }
 

@@ -77,18 +77,9 @@ bool is_row(std::string_view line) {
   const char c = line.front();
   if (std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '+' || c == '.') return true;
   const std::vector<std::string> fields = fields_in(line, separator_in(line));
-  const auto numbers =
-      static_cast<std::size_t>(std::ranges::count_if(fields, [](const std::string& field) {
-        return files::number_in<double>(field).has_value();
-      }));
-  return !is_comment(line) && numbers > 2 && 2 * numbers > fields.size();
-}
-
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
+  const auto numbers = std::ranges::count_if(
+      fields, [](const std::string& field) { return files::number_in<double>(field).has_value(); });
+  return !is_comment(line) && numbers > 2 && 2 * numbers > std::ssize(fields);
 }
 
 /// A table of a tool that needs more than other names of columns.
@@ -126,18 +117,20 @@ void refuse_foreign(const fs::path& file, const std::vector<std::string>& before
 
 }  // namespace
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
 std::vector<std::string> words_in(std::string_view name) {
   std::vector<std::string> words;
-  char before = ' ';
-  for (const char c : name) {
-    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool begins = std::isupper(static_cast<unsigned char>(c)) != 0 &&
-                        std::islower(static_cast<unsigned char>(before)) != 0;
-    const bool was_letter = std::isalpha(static_cast<unsigned char>(before)) != 0;
-    if (is_letter && (begins || !was_letter)) words.emplace_back();
-    if (is_letter) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
+  unsigned char before = ' ';
+  for (const unsigned char c : name) {
+    const bool begins = !std::isalpha(before) || (std::isupper(c) && std::islower(before));
+    if (std::isalpha(c) && begins) words.emplace_back();
+    if (std::isalpha(c)) words.back() += static_cast<char>(std::tolower(c));
     before = c;
   }
   return words;

@@ -52,6 +52,9 @@ struct TextTable {
   std::size_t column(std::string_view name, std::size_t otherwise) const;
 };
 
+/// ASCII letters only.
+std::string in_lower_case(std::string_view text);
+
 /// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
 std::vector<std::string> words_in(std::string_view name);
 

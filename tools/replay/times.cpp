@@ -13,35 +13,9 @@
 namespace lcs::replay {
 namespace {
 
-constexpr double kNanosecondsASecond = 1e9;
-
 std::optional<int> whole_within(std::string_view text, int least, int most) {
   const auto number = files::number_in<int>(text);
   return number && *number >= least && *number <= most ? number : std::nullopt;
-}
-
-std::optional<std::chrono::sys_days> day_in(std::string_view date) {
-  const std::vector<std::string_view> parts = files::split(date, '-');
-  if (parts.size() != 3) return std::nullopt;
-  const auto year = whole_within(parts[0], 1900, 2099);
-  const auto month = whole_within(parts[1], 1, 12);
-  const auto day = whole_within(parts[2], 1, 31);
-  if (!year || !month || !day) return std::nullopt;
-  const std::chrono::year_month_day on{std::chrono::year(*year), std::chrono::month(*month),
-                                       std::chrono::day(*day)};
-  if (!on.ok()) return std::nullopt;
-  return std::chrono::sys_days(on);
-}
-
-std::optional<std::chrono::nanoseconds> time_of_day_in(std::string_view clock) {
-  const std::vector<std::string_view> parts = files::split(clock, ':');
-  if (parts.size() != 3) return std::nullopt;
-  const auto hour = whole_within(parts[0], 0, 23);
-  const auto minute = whole_within(parts[1], 0, 59);
-  const auto second = files::number_in<double>(parts[2]);
-  if (!hour || !minute || !second || !(*second >= 0 && *second < 61)) return std::nullopt;
-  return std::chrono::hours(*hour) + std::chrono::minutes(*minute) +
-         std::chrono::nanoseconds(std::llround(*second * kNanosecondsASecond));
 }
 
 constexpr std::int64_t kTick_ns = 100'000;  // of Xsens, whose columns alone state it
@@ -168,10 +142,9 @@ void require_zeros(const TextTable& table, std::size_t column) {
   std::vector<std::string_view> times;
   for (const TextTable::Row& row : table.rows) times.push_back(TextTable::field(row, column));
   if (!lack_zeros(times)) return;
-  throw input::Error(
-      {table.file.string(), table.rows.front().line},
-      "the fractions of its seconds lack leading zeros: 12.5 stands for 12.000000005; "
-      "write them with as many digits each");
+  throw input::Error({table.file.string(), table.rows.front().line},
+                     "the fractions of its seconds lack leading zeros: 12.5 stands for "
+                     "12.000000005; write them with as many digits each");
 }
 
 std::optional<std::int64_t> time_unit_named(std::string_view name) {
@@ -203,10 +176,20 @@ std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns)
 }
 
 std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock) {
-  const auto day = day_in(date);
-  const auto time_of_day = time_of_day_in(clock);
-  if (!day || !time_of_day) return std::nullopt;
-  return std::chrono::nanoseconds(day->time_since_epoch() + *time_of_day).count();
+  const std::vector<std::string_view> days = files::split(date, '-');
+  const std::vector<std::string_view> times = files::split(clock, ':');
+  if (days.size() != 3 || times.size() != 3) return std::nullopt;
+  const auto year = whole_within(days[0], 1900, 2099), month = whole_within(days[1], 1, 12);
+  const auto day = whole_within(days[2], 1, 31), hour = whole_within(times[0], 0, 23);
+  const auto minute = whole_within(times[1], 0, 59);
+  const auto second = files::number_in<double>(times[2]);
+  if (!year || !month || !day || !hour || !minute || !second) return std::nullopt;
+  const std::chrono::year_month_day on{std::chrono::year(*year), std::chrono::month(*month),
+                                       std::chrono::day(*day)};
+  if (!on.ok() || !(*second >= 0 && *second < 61)) return std::nullopt;
+  const std::chrono::sys_time<std::chrono::nanoseconds> at =
+      std::chrono::sys_days(on) + std::chrono::hours(*hour) + std::chrono::minutes(*minute);
+  return at.time_since_epoch().count() + std::llround(*second * 1e9);
 }
 
 std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns) {
@@ -217,11 +200,10 @@ std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns) {
   return 1e9 / static_cast<double>(*period_ns);
 }
 
-std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
-                          const ExpectedRate& expected, std::optional<std::int64_t> layouts,
-                          Tally& tally) {
+std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tally& tally) const {
   require_zeros(table, column);
   const std::optional<double> period = usual_period(table, column);
+  const std::string file = table.file.string();
   const auto rate_hz = [&](std::int64_t unit_ns) {
     return static_cast<double>(kSecond_ns) / (*period * static_cast<double>(unit_ns));
   };
@@ -229,30 +211,29 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
     if (!period) return true;
     constexpr double kFactor = 30;  // pictures may be left out of a recording
     const double hz = rate_hz(unit_ns);
-    if (!expected.stated_hz) return hz > expected.least_hz && hz < expected.most_hz;
-    return hz < kFactor * *expected.stated_hz && kFactor * hz > *expected.stated_hz;
+    if (!rate.stated_hz) return hz > rate.least_hz && hz < rate.most_hz;
+    return hz < kFactor * *rate.stated_hz && kFactor * hz > *rate.stated_hz;
   };
   const auto chosen = [&](std::int64_t unit_ns) {
     constexpr double kSame = 0.2;
     const double hz = period ? rate_hz(unit_ns) : 0;
-    if (expected.stated_hz && period && std::abs(hz / *expected.stated_hz - 1) > kSame) {
-      tally.tell(fmt::format("{} has {:.3g} rows a second, and {} states {:g} Hz",
-                             table.file.string(), hz, expected.stated_by, *expected.stated_hz));
+    if (rate.stated_hz && period && std::abs(hz / *rate.stated_hz - 1) > kSame) {
+      tally.tell(fmt::format("{} has {:.3g} rows a second, and {} states {:g} Hz", file, hz,
+                             rate.stated_by, *rate.stated_hz));
     }
     return unit_ns;
   };
   const auto fitting = std::ranges::find_if(
       time_units(), [&](const TimeUnit& unit) { return unit.ns != kTick_ns && fits(unit.ns); });
-  const std::string file = table.file.string();
-  const std::string rate =
-      expected.stated_hz ? fmt::format("{} states {:g} Hz", expected.stated_by, *expected.stated_hz)
-                         : fmt::format("a sensor of its kind has {:g} to {:g} Hz",
-                                       expected.least_hz, expected.most_hz);
+  const std::string expected =
+      rate.stated_hz
+          ? fmt::format("{} states {:g} Hz", rate.stated_by, *rate.stated_hz)
+          : fmt::format("a sensor of its kind has {:g} to {:g} Hz", rate.least_hz, rate.most_hz);
   const auto contradict = [&](const std::string& by, std::int64_t unit_ns) {
     throw input::Error(
         {file, table.rows.front().line},
         "its times are {}, which gives {:.3g} rows a second, and {}; {}", by, rate_hz(unit_ns),
-        rate,
+        expected,
         fitting == time_units().end()
             ? "correct one of the two"
             : fmt::format("if they are in {0}, give time_unit: {0}", fitting->names.front()));
@@ -263,7 +244,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   for (const auto& unit_ns : {by_user, by_header, by_user ? layouts : std::nullopt}) {
     if (unit_ns && fits(*unit_ns)) return chosen(*unit_ns);
   }
-  if (by_user && !expected.stated_hz) return *by_user;
+  if (by_user && !rate.stated_hz) return *by_user;
   if (by_user) contradict("in " + asked + " by time_unit", *by_user);
   if (by_header) contradict("in " + stated + " by its header", *by_header);
   require_no_ticks(table, column);
@@ -272,7 +253,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
     throw input::Error({file, table.rows.front().line},
                        "no unit of time gives its rows the rate that they can have: {}; give "
                        "time_unit (s, ms, us or ns)",
-                       rate);
+                       expected);
   }
   tally.add(
       "tables of times do not state their unit, and are read in the unit that fits their rate",

@@ -50,22 +50,16 @@ struct ExpectedRate {
 inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
 inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
 
-/// The unit of the times in a column of a table, in ns: the first that gives the expected rate,
-/// of `asked` (s, ms, us, ns), the header's unit, and `layouts`; else the only one that gives it,
-/// which is told. \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
-std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
-                          const ExpectedRate& expected, std::optional<std::int64_t> layouts,
-                          Tally& tally);
-
 /// The unit of a table's times, as far as it is known before the table is read.
 struct TableTimes {
-  std::string unit;  ///< s, ms, us or ns; "": as the table states it
+  std::string asked;  ///< s, ms, us or ns; "": as the table states it
   ExpectedRate rate;
-  std::optional<std::int64_t> usual;  ///< unit in ns that its layout has
+  std::optional<std::int64_t> layouts;  ///< unit in ns that its layout has
 
-  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const {
-    return time_unit_of(table, column, unit, rate, usual, tally);
-  }
+  /// In ns: the first that gives the expected rate, of `asked`, the header's unit, and `layouts`;
+  /// else the only one that gives it, which is told. \throws input::Error if a stated unit
+  /// contradicts the rate, or no unit gives it.
+  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const;
 };
 
 /// A column of times, and perhaps one of their fractions beside seconds, as ROS has them.
@@ -78,7 +72,7 @@ struct TimeColumn {
   std::optional<std::int64_t> of(const TextTable::Row& row) const;
 };
 /// The column that the header calls so, else the first one.
-/// \throws input::Error for a header without one, and as `time_unit_of`.
+/// \throws input::Error for a header without one, and as `TableTimes::unit_ns`.
 TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally& tally);
 
 /// Whether fractions of seconds, as 12.5, lack leading zeros: 12.05 was meant. Then they have
