@@ -50,6 +50,7 @@ struct CriteriaCounts {
   bool has_criteria = false;  ///< other than `runs`
 
   int all() const { return met + failed + missed + errors; }
+  int unmet() const { return failed + errors; }  ///< required, and not met
 };
 CriteriaCounts count_criteria(const std::vector<Judgement>& judgements);
 ///@}

@@ -96,10 +96,10 @@ void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
 
 // ---- The line
 
+/// \param finding absent without a comparison.
 std::string line_of(const SuiteResult& suite, const Comparison* comparison,
-                    const CriteriaCounts& criteria) {
-  if (!comparison) return text_of(criteria);
-  const int unmet = criteria.failed + criteria.errors;
+                    const std::optional<Finding>& finding, const CriteriaCounts& criteria) {
+  if (!finding) return text_of(criteria);
   std::map<std::optional<Change>, int> count;
   for (const std::string& name : comparison->scenarios) ++count[comparison->of_scenario(name)];
   const std::set<std::string> common(comparison->scenarios.begin(), comparison->scenarios.end());
@@ -108,19 +108,19 @@ std::string line_of(const SuiteResult& suite, const Comparison* comparison,
   }
   std::string line = fmt::format(
       "{}; of {} {} regressed, {} improved; of {} {} regressed, {} improved, {} as before",
-      text_of(comparison->finding(unmet), *comparison, unmet),
-      counted(comparison->judged_means, "mean"), comparison->count_means(Change::regressed),
-      comparison->count_means(Change::improved), counted(std::ssize(suite.scenarios), "scenario"),
-      count[Change::regressed], count[Change::improved], count[Change::none]);
+      text_of(*finding, *comparison, criteria.unmet()), counted(comparison->judged_means, "mean"),
+      comparison->count_means(Change::regressed), comparison->count_means(Change::improved),
+      counted(std::ssize(suite.scenarios), "scenario"), count[Change::regressed],
+      count[Change::improved], count[Change::none]);
   if (count[Change::unknown] > 0) line += fmt::format(", {} unknown", count[Change::unknown]);
   if (count[std::nullopt] > 0) line += fmt::format(", {} not compared", count[std::nullopt]);
   return fmt::format("{}; {}", line, text_of(criteria));
 }
 
-Light light_of(const Comparison* comparison, int unmet) {
-  if (!comparison) return unmet > 0 ? Light::red : Light::green;
+Light light_of(const std::optional<Finding>& finding, int unmet) {
+  if (!finding) return unmet > 0 ? Light::red : Light::green;
   constexpr std::array<Light, 4> kByFinding{Light::red, Light::red, Light::yellow, Light::green};
-  return kByFinding.at(static_cast<std::size_t>(comparison->finding(unmet)));
+  return kByFinding.at(static_cast<std::size_t>(*finding));
 }
 
 // ---- Remarks
@@ -235,12 +235,12 @@ SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
     return std::pair(a.worst(), -a.weight) < std::pair(b.worst(), -b.weight);
   });
   const CriteriaCounts criteria = count_criteria(judgements_of(after.suite, others));
-  const int unmet = criteria.failed + criteria.errors;
-  SuiteVerdict verdict{
-      .finding = comparison ? std::optional(comparison->finding(unmet)) : std::nullopt,
-      .line = line_of(after.suite, comparison, criteria),
-      .light = light_of(comparison, unmet),
-      .note = comparison ? comparison->note() : ""};
+  std::optional<Finding> finding;
+  if (comparison) finding = comparison->finding(criteria.unmet());
+  SuiteVerdict verdict{.finding = finding,
+                       .line = line_of(after.suite, comparison, finding, criteria),
+                       .light = light_of(finding, criteria.unmet()),
+                       .note = comparison ? comparison->note() : ""};
   for (Weighed& one : all) verdict.remarks.push_back(std::move(one.remark));
   return verdict;
 }
