@@ -7,21 +7,6 @@
 #include "filter/vectors/refill.h"
 
 namespace lcs {
-namespace {
-
-/// A normal density times a probability.
-ExpectedTrack::Share share_of(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
-  const Eigen::Matrix2f precision = covariance.inverse().cast<float>();
-  return {static_cast<float>(at_px.x()),
-          static_cast<float>(at_px.y()),
-          precision(0, 0),
-          precision(0, 1),
-          precision(1, 1),
-          static_cast<float>(share / (2 * kPi * std::sqrt(covariance.determinant())))};
-}
-
-}  // namespace
-
 Association::Association(const EdgeParameters& parameters) : parameters_(parameters) {
   for (int bits = 0; bits <= 256; ++bits) {
     likeness_[bits] = (parameters_.bits_even - bits) * parameters_.bits_weight;
@@ -29,45 +14,10 @@ Association::Association(const EdgeParameters& parameters) : parameters_(paramet
   }
 }
 
-double Association::reach_px(double dt_s) const {
-  return parameters_.max_speed_pxps * dt_s;
-}
-
-double Association::reach_area_px2(double dt_s) const {
-  const double reach = reach_px(dt_s);
-  return kPi * reach * reach;
-}
-
 /// Density of tracks round a corner, 1/px^2.
 double Association::clutter_ppx2(std::size_t corner) const {
   const double near = parameters_.neighbour_reach_px;
   return crowd_[corner] / (kPi * near * near);
-}
-
-/// Density of each track in this frame: a static or a moving point, weighted by its belief, or
-/// anywhere within reach.
-void Association::expect(std::span<const Track> predicted, double noise2_px2, double dt_s) {
-  const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
-  expected_.clear();
-  for (const Track& track : predicted) {
-    const double moves = chance(track.belief);
-    double anywhere_ppx2 = wrong * anywhere;
-    const ExpectedTrack::Share still = share_of(
-        track.as_static.place_px, track.as_static.spread(noise2_px2), (1 - wrong) * (1 - moves));
-    ExpectedTrack::Share moving = still;
-    if (track.has_motion()) {
-      moving =
-          share_of(track.as_moving.place_px,
-                   (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
-                   (1 - wrong) * moves);
-    } else {
-      moving.most_ppx2 = 0;
-      anywhere_ppx2 += (1 - wrong) * moves * anywhere;
-    }
-    const Eigen::Vector2f place_px = track.place_px.cast<float>();
-    expected_.push_back(
-        {place_px.x(), place_px.y(), still, moving, static_cast<float>(anywhere_ppx2)});
-  }
 }
 
 /// Keeps the pair if it is among the likeliest of its corner.
@@ -85,29 +35,28 @@ void Association::Sought::clear() {
   tracks.clear();
 }
 
-void Association::Sought::build(std::span<const Track> predicted, double cell_px) {
+void Association::Sought::build(const Tracks& predicted, double cell_px) {
   grid.build(places, cell_px);
   refill(track_at, places.size());
   refill(signatures, places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     track_at[i] = tracks[grid.index_at(i)];
-    signatures[i] = predicted[track_at[i]].signature;
+    signatures[i] = predicted.records[track_at[i]].signature;
   }
 }
 
 /// Places the tracks where they are looked for.
-void Association::seek(std::span<const Track> predicted, double dt_s) {
+void Association::seek(const Tracks& predicted, double dt_s) {
   followed_.clear();
   all_.clear();
-  followed_.reach_px = std::min(parameters_.neighbour_reach_px, reach_px(dt_s));
-  all_.reach_px = reach_px(dt_s);
+  all_.reach_px = parameters_.reach_px(dt_s);
+  followed_.reach_px = std::min(parameters_.neighbour_reach_px, all_.reach_px);
   for (std::size_t t = 0; t < predicted.size(); ++t) {
-    const Track& track = predicted[t];
-    all_.places.push_back(track.place_px);
+    all_.places.push_back(predicted.point(kPlaceX, t));
     all_.tracks.push_back(static_cast<int>(t));
-    if (track.sightings < 3) continue;
-    followed_.places.push_back(track.belief > 0 ? track.as_moving.place_px
-                                                : track.as_static.place_px);
+    if (predicted.at(kSightings, t) < 3) continue;
+    followed_.places.push_back(
+        predicted.point(predicted.at(kBelief, t) > 0 ? kMovingX : kStaticX, t));
     followed_.tracks.push_back(static_cast<int>(t));
   }
   followed_.build(predicted, parameters_.neighbour_reach_px);
@@ -119,7 +68,7 @@ void Association::seek(std::span<const Track> predicted, double dt_s) {
 /// \return whether it surely continues one of them: near its prediction, with a signature of
 ///   which few bits differ.
 bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
-                             const Sought& sought) {
+                             const Tracks& predicted, const Sought& sought) {
   bool is_sure = false;
   std::size_t count = sought.grid.find_within(x_px, sought.reach_px, near_);
   if (signature != nullptr) {
@@ -131,13 +80,15 @@ bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signatu
     which_[i] = sought.track_at[place];
   }
   const Eigen::Vector2f x = x_px.cast<float>();
-  loops().densities(expected_.data(), which_.data(), count, x.x(), x.y(), ln_density_.data(),
-                    ln_off_.data());
+  track_loops().densities(predicted.columns.data(), which_.data(), count, x.x(), x.y(),
+                          ln_density_.data(), ln_off_.data());
+  const float *const place_x = predicted.columns[kPlaceX], *const place_y =
+                                                               predicted.columns[kPlaceY];
   const double reach2_px2 = all_.reach_px * all_.reach_px;
   for (std::size_t i = 0; i < count; ++i) {
-    const ExpectedTrack& track = expected_[which_[i]];
     // Static points are not followed at steps that are too large for movers, either.
-    if ((Eigen::Vector2f(track.x_px, track.y_px) - x).squaredNorm() > reach2_px2) continue;
+    const Eigen::Vector2f place(place_x[which_[i]], place_y[which_[i]]);
+    if ((place - x).squaredNorm() > reach2_px2) continue;
     const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
     // Half as far as a pair may be, in deviations and in bits.
     is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
@@ -148,11 +99,11 @@ bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signatu
 }
 
 /// Finds the pairs of all corners.
-void Association::find_pairs(const Chi& chi) {
-  refill(alike_, expected_.size());
-  refill_column(which_, expected_.size());
-  refill_column(ln_density_, expected_.size());
-  refill_column(ln_off_, expected_.size());
+void Association::find_pairs(const Chi& chi, const Tracks& predicted) {
+  refill(alike_, predicted.size());
+  refill_column(which_, predicted.size());
+  refill_column(ln_density_, predicted.size());
+  refill_column(ln_off_, predicted.size());
   // Of pairs with signatures one vector is kept. Without signatures a new mover's pairs are all
   // alike, and only the votes tell them apart.
   most_pairs_ = chi.signatures.empty() ? kCrowd : kLanes;
@@ -161,24 +112,22 @@ void Association::find_pairs(const Chi& chi) {
   for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) {
     refill_column(*column, pairs_.size());
   }
-  crowd_.clear();
   ln_clutter_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
-    if (!find_pairs(c, x, signature, followed_)) {
+    if (!find_pairs(c, x, signature, predicted, followed_)) {
       counts_[c] = 0;
-      find_pairs(c, x, signature, all_);
+      find_pairs(c, x, signature, predicted, all_);
     }
-    crowd_.push_back(1 +
-                     static_cast<int>(all_.grid.count_within(x, parameters_.neighbour_reach_px)));
+    crowd_[c] = 1 + static_cast<float>(all_.grid.count_within(x, parameters_.neighbour_reach_px));
     const float ln_clutter =
         ln_clutter_.emplace_back(static_cast<float>(std::log(clutter_ppx2(c))));
     for (std::size_t p = c * most_pairs_, end = p + counts_[c]; p < end; ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
-      step_x_[p] = static_cast<float>(x.x()) - expected_[pair.track].x_px;
-      step_y_[p] = static_cast<float>(x.y()) - expected_[pair.track].y_px;
+      step_x_[p] = static_cast<float>(x.x()) - predicted.at(kPlaceX, pair.track);
+      step_y_[p] = static_cast<float>(x.y()) - predicted.at(kPlaceY, pair.track);
       likeness_of_[p] = pair.likeness;
     }
   }
@@ -227,21 +176,21 @@ Association::Match Association::best_pair(std::size_t corner, std::span<const Ne
 }
 
 const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& around,
-                                           std::span<const Track> predicted, double noise2_px2,
-                                           double dt_s) {
-  refill(track_of_, chi.size(), -1);
-  refill(chance_ppx2_, chi.size());
-  if (predicted.empty() || chi.size() == 0) return track_of_;
-  expect(predicted, noise2_px2, dt_s);
-  seek(predicted, dt_s);
-  find_pairs(chi);
+                                           Tracks& predicted, const TrackFrame& frame) {
+  refill(track_of_, chi.size() + kLanes, -1);
+  refill_column(chance_ppx2_, chi.size());
+  refill(crowd_, chi.size() + kLanes, 1.0F);
+  if (predicted.size() == 0 || chi.size() == 0) return track_of_;
+  track_loops().expect(frame, predicted.size(), predicted.columns.data());
+  seek(predicted, double{frame.dt_s});
+  find_pairs(chi, predicted);
   weigh_voices(around);
   const PairColumns pairs = {step_x_.data(),
                              step_y_.data(),
                              likeness_of_.data(),
                              counts_.data(),
                              most_pairs_,
-                             static_cast<float>(4 * noise2_px2),
+                             4 * frame.noise2_px2,
                              static_cast<float>(parameters_.step_share * parameters_.step_share)};
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
@@ -258,8 +207,8 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
     taken_[match.track] = 1;
     track_of_[match.corner] = match.track;
     if (chi.signatures.empty()) continue;
-    chance_ppx2_[match.corner] =
-        clutter_ppx2(static_cast<std::size_t>(match.corner)) * std::exp(-match.signature);
+    chance_ppx2_[match.corner] = static_cast<float>(
+        clutter_ppx2(static_cast<std::size_t>(match.corner)) * std::exp(-match.signature));
   }
   return track_of_;
 }

@@ -18,7 +18,7 @@
 
 #include "filter/edges/edge_parameters.h"
 #include "filter/edges/neighbourhood.h"
-#include "filter/edges/track.h"
+#include "filter/edges/tracks.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
 #include "filter/vectors/vectors.h"
@@ -30,20 +30,16 @@ class Association {
   explicit Association(const EdgeParameters& parameters);
 
   /// \param around the corners' neighbours, which vote.
-  /// \param predicted tracks, predicted to this frame, in its pixels.
-  /// \return the index of each corner's track, -1: none.
-  const std::vector<int>& match(const Chi& chi, const Neighbourhood& around,
-                                std::span<const Track> predicted, double noise2_px2, double dt_s);
+  /// \param predicted tracks, predicted to this frame, in its pixels; sets where they are expected.
+  /// \return the index of each corner's track, -1: none; padded.
+  const std::vector<int>& match(const Chi& chi, const Neighbourhood& around, Tracks& predicted,
+                                const TrackFrame& frame);
 
-  /// In the last match: 1 + the number of tracks within `neighbour_reach` of a corner.
-  int crowd(std::size_t corner) const { return crowd_[corner]; }
-  /// In the last match: density of wrong pairs that look as good as the corner's own pair, 1/px^2,
-  /// from the tracks there and its signature; 0 without signatures.
-  double chance_ppx2(std::size_t corner) const { return chance_ppx2_[corner]; }
-  /// px: largest distance of a corner from its track's rotated place.
-  double reach_px(double dt_s) const;
-  /// px^2: area of the circle with that radius.
-  double reach_area_px2(double dt_s) const;
+  /// In the last match: 1 + the number of tracks within `neighbour_reach` of each corner; padded.
+  const float* crowd() const { return crowd_.data(); }
+  /// In the last match: density of wrong pairs that look as good as each corner's own pair, 1/px^2,
+  /// from the tracks there and its signature; 0 without signatures; padded.
+  const float* chance_ppx2() const { return chance_ppx2_.data(); }
 
  private:
   /// A candidate pair of a corner and a track. Sorted by falling weight.
@@ -74,14 +70,13 @@ class Association {
     double reach_px = 0;
 
     void clear();
-    void build(std::span<const Track> predicted, double cell_px);
+    void build(const Tracks& predicted, double cell_px);
   };
 
-  void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
   bool find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
-                  const Sought& sought);
-  void seek(std::span<const Track> predicted, double dt_s);
-  void find_pairs(const Chi& chi);
+                  const Tracks& predicted, const Sought& sought);
+  void seek(const Tracks& predicted, double dt_s);
+  void find_pairs(const Chi& chi, const Tracks& predicted);
   void offer(std::size_t corner, const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   void weigh_voices(const Neighbourhood& around);
@@ -98,13 +93,12 @@ class Association {
   PointGrid::Found near_;                   // to a corner
   std::vector<Alike> alike_;                // of these, to its signature
   std::vector<int> which_;                  // the tracks of these
-  std::vector<float> ln_density_, ln_off_;  // `Loops::densities` of these
-  std::vector<ExpectedTrack> expected_;     // of each track
+  std::vector<float> ln_density_, ln_off_;  // `TrackLoops::densities` of these
   std::size_t most_pairs_ = 0;              // that are kept of each corner
   std::vector<Pair> pairs_;                 // so many places for each corner
   std::vector<std::uint32_t> counts_;       // of the pairs of each corner
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
-  std::vector<int> crowd_;                            // of each corner
+  std::vector<float> crowd_;                          // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner
   // The voices of each corner, nearest first: its neighbours, with weights and ln_clutter.
   std::vector<int> voices_;
@@ -112,7 +106,7 @@ class Association {
   std::vector<Match> matches_;
   std::vector<char> taken_;
   std::vector<int> track_of_;
-  std::vector<double> chance_ppx2_;  // of each corner
+  std::vector<float> chance_ppx2_;  // of each corner
 };
 
 }  // namespace lcs

@@ -20,10 +20,11 @@ class CornerNoise {
     sum_px2_ *= kept;
     weight_ *= kept;
   }
-  /// \param miss2_px2 squared distance from the estimated place, plus the trace of its covariance.
-  /// \param weight chance of the hypothesis that estimated it.
-  void add(double miss2_px2, double weight) {
-    sum_px2_ += weight * miss2_px2 / 2;
+  /// \param sum_px2 sum of weight times half of the squared distance from the estimated place, plus
+  ///   the trace of its covariance.
+  /// \param weight sum of the chances of the hypothesis that estimated it.
+  void add(double sum_px2, double weight) {
+    sum_px2_ += sum_px2;
     weight_ += weight;
   }
 

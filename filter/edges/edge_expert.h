@@ -3,14 +3,16 @@
 /// holds the log odds of moving (filter/MODEL.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "filter/edges/association.h"
+#include "filter/edges/corner_noise.h"
 #include "filter/edges/coupling.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/edges/motion_fix.h"
-#include "filter/edges/track.h"
+#include "filter/edges/tracks.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
 #include "filter/types/frame_result.h"
@@ -48,28 +50,21 @@ class EdgeExpert {
   void forget();
 
  private:
+  void take(const Chi& chi);
   void estimate_noise(double dt_s);
-  void predict_tracks(const MotionField& field);
-  void correct_predictions(const MotionField& field);
-  const std::vector<int>& follow(const MotionField& field, const Chi& chi);
-  bool is_held(const MotionField& held, const Chi& chi, const std::vector<int>& track_of) const;
-  bool is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
-                      const std::vector<int>& track_of) const;
-  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
-                      bool started);
-  void correct_residuals(const Chi& chi, const std::vector<int>& track_of, bool started);
-  bool has_residual(int track, bool started) const;
-  Track first_seen(const Chi& chi, std::size_t corner);
-  bool update(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
-  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
-                    double noise2_px2) const;
-  double faded(double log_odds, double dt_s) const;
+  TrackFrame frame_of(const MotionField& field) const;
+  void predict(const MotionField& field, const TrackFrame& frame, Tracks& predicted) const;
+  void follow(const MotionField& told, const Chi& chi);
+  Sightings sightings() const;
+  bool is_held(const MotionField& held);
+  bool is_first_wrong(const MotionField& told, const MotionField& first);
+  MotionField corrected(const MotionField& field, bool started);
+  void see(const MotionField& field, const Chi& chi);
   void coast(const MotionField& field);
-  double shown(const Track& track, const MotionField& field) const;
   void couple(const MotionField& field);
   bool do_all_move() const;
   void decide(const Chi& chi, const MotionField& field);
-  Edge edge_of(const Track& track, const MotionField& field) const;
+  Edge edge_of(std::size_t track, const MotionField& field) const;
 
   Intrinsics camera_;
   EdgeParameters parameters_;
@@ -81,13 +76,16 @@ class EdgeExpert {
   Neighbourhood around_;        // of this frame's corners
   Association association_;
   Coupling coupling_;
-  MotionFinder motion_finder_;
   VelocityError velocity_error_;
-  std::vector<Track> tracks_;     // of the last frame; tracks with a corner first, by chi
-  std::vector<Track> predicted_;  // the same, predicted to this frame
-  std::vector<Residual> residuals_;
+  std::size_t corners_ = 0;         // of this frame
+  std::vector<float> x_px_, y_px_;  // of these; padded
+  std::vector<int> track_of_;       // of these, -1: none; padded
+  Tracks tracks_;                   // of the last frame; tracks with a corner first, by chi
+  Tracks predicted_, other_;        // the same, predicted to this frame
+  Columns<double, kMissColumns> misses_;
+  std::vector<int> kept_;  // whether a corner's track was continued
+  std::vector<float> off2_px2_, shown_;
   std::vector<Coupling::Node> nodes_;
-  std::vector<Track*> seen_;  // of each node
   /// Depths were confirmed by a motion that they were not made with.
   bool is_confirmed_ = false;
   Result result_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
@@ -44,7 +45,13 @@ struct EdgeParameters {
   /// Standard deviation of the camera's velocity, as a share of its speed.
   double ego_share = learnt("hypotheses.ego_share");
   double max_speed_pxps = 900;  ///< px/s: the fastest mover that is searched for, rotation removed
-  int coast = 3;                ///< frames that a track without a corner lives on
+  /// px: largest distance of a corner from its track's rotated place.
+  double reach_px(double dt_s) const { return max_speed_pxps * dt_s; }
+  /// px^2: area of the circle with that radius.
+  double reach_area_px2(double dt_s) const {
+    return std::numbers::pi * reach_px(dt_s) * reach_px(dt_s);
+  }
+  int coast = 3;  ///< frames that a track without a corner lives on
   /// Differing bits of two signatures at which same and other place are equally likely. Corners
   /// whose signatures differ more are never paired.
   double bits_even = learnt("hypotheses.bits_even");

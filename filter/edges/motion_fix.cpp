@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "filter/edges/gauss.h"
+#include "filter/edges/tracks.h"
 #include "filter/matching/point_grid.h"
-#include "filter/vectors/refill.h"
-#include "filter/vectors/vectors.h"
 
 namespace lcs {
 namespace {
@@ -41,61 +40,19 @@ std::array<double, 21> root_of(const Matrix6& covariance) {
 
 }  // namespace
 
-/// Puts the residuals into columns.
-void MotionFinder::place(const Intrinsics& camera, const MotionField& told,
-                         std::span<const Residual> residuals, double velocity_variance_m2ps2) {
-  const double dt = told.dt_s(), per_depth_px_m = camera.focal_px * dt;
-  const std::array columns = {&h_x_,      &h_y_,      &motion_s_,      &off_x_px_,
-                              &off_y_px_, &S_xx_px2_, &S_xy_px2_,      &S_yy_px2_,
-                              &voice_,    &stands_,   &otherwise_ppx2_};
-  for (std::vector<double>* column : columns) {
-    column->clear();
-    make_room(*column, residuals.size() + kLanes);
-  }
-  for (const Residual& residual : residuals) {
-    // The effect of a change of velocity on a point is as uncertain as the point's depth.
-    Eigen::Matrix2d S =
-        residual.covariance_px2 + residual.by_depth_px * residual.by_depth_px.transpose();
-    S.diagonal().array() += per_depth_px_m * per_depth_px_m * velocity_variance_m2ps2 *
-                            residual.inverse_depth_variance_pm2;
-    // The precision across a segment of a million pixels is lost in rounding.
-    if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
-    const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
-    h_x_.push_back(h.x());
-    h_y_.push_back(h.y());
-    motion_s_.push_back(residual.inverse_depth_pm * dt);
-    off_x_px_.push_back(residual.off_px.x());
-    off_y_px_.push_back(residual.off_px.y());
-    S_xx_px2_.push_back(S(0, 0));
-    S_xy_px2_.push_back(S(0, 1));
-    S_yy_px2_.push_back(S(1, 1));
-    voice_.push_back(residual.voice);
-    stands_.push_back(residual.stands);
-    otherwise_ppx2_.push_back(residual.otherwise_ppx2);
-  }
-  for (std::vector<double>* column : columns) {
-    const bool is_variance = column == &S_xx_px2_ || column == &S_yy_px2_;
-    column->resize(column->size() + kLanes, is_variance || column == &otherwise_ppx2_ ? 1 : 0);
-  }
-}
-
-MotionFix MotionFinder::find(const Intrinsics& camera, const MotionField& told,
-                             std::span<const Residual> residuals,
-                             const Eigen::Matrix3d& velocity_covariance) {
+MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
+                          const double* const* misses, std::size_t count,
+                          const Eigen::Matrix3d& velocity_covariance) {
   const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   Matrix6 prior = Matrix6::Zero();  // not inverted: 0 if the motion is exact
   prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
   prior.bottomRightCorner<3, 3>() = velocity_covariance;
-  place(camera, told, residuals, velocity_covariance.trace() / 3);
-  const ResidualColumns columns = {
-      h_x_.data(),      h_y_.data(),      motion_s_.data(),       off_x_px_.data(),
-      off_y_px_.data(), S_xx_px2_.data(), S_xy_px2_.data(),       S_yy_px2_.data(),
-      voice_.data(),    stands_.data(),   otherwise_ppx2_.data(), camera.focal_px};
   Matrix6 left_open = prior, covariance = prior;
   Vector6 fix = Vector6::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     NormalSums sums;
-    loops().normal_sums(columns, h_x_.size() - kLanes, fix.data(), root_of(left_open).data(), sums);
+    track_loops().normal_sums(misses, count, camera.focal_px, fix.data(), root_of(left_open).data(),
+                              sums);
     Matrix6 information;
     for (int row = 0, entry = 0; row < 6; ++row) {
       for (int column = row; column < 6; ++column, ++entry) {
@@ -114,16 +71,9 @@ MotionFix MotionFinder::find(const Intrinsics& camera, const MotionField& told,
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 
-bool is_contradicted(std::span<const Residual> residuals) {
-  double left = 0, stood = 0, all = 0;
-  for (const Residual& residual : residuals) {
-    const double stands = residual.stands * gauss(residual.off_px, residual.covariance_px2);
-    left += residual.voice * residual.stands * residual.otherwise_ppx2 /
-            (stands + residual.otherwise_ppx2);
-    stood += residual.voice * residual.stands;
-    all += residual.voice;
-  }
-  return stood >= 0.5 * all && left > kLeave * stood;
+bool is_contradicted(const double* const* misses, std::size_t count) {
+  const Agreement sums = track_loops().agree(misses, count);
+  return sums.stood >= 0.5 * sums.all && sums.left > kLeave * sums.stood;
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {

@@ -54,6 +54,12 @@ class MotionField {
   /// rotated first.
   Vec2 rotated(const Vec2& x_px) const;
 
+  /// K dR K^-1, by which `rotated` maps pixels; absent for the other models of rotation.
+  std::optional<Eigen::Matrix3d> homography() const {
+    if (parameters_.rotation != RotationModel::homography) return std::nullopt;
+    return homography_;
+  }
+
   /// Rotates a direction of motion beta by the rotation of the line from `origin` to `location`;
   /// both are given before the rotation.
   double turned(double angle_rad, const Vec2& location_px, const Vec2& origin_px) const;
@@ -86,6 +92,10 @@ class MotionField {
 
   /// m: displacement of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
+
+  /// px m: image motion of a static point at a rotated location over the interval, over its final
+  /// inverse depth.
+  Vec2 parallax_px_m(const Vec2& x_px) const { return flow(x_px) * dt_s_; }
 
   /// Z_ref / Z at the interval's end, from its value at the start. A point that the camera passes
   /// within the interval gets `max_ratio`.

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "filter/edges/gauss.h"
-#include "filter/edges/static_point.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/radial/median.h"
 #include "filter/vectors/refill.h"
@@ -24,7 +23,7 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
     const Edge& edge = rebels[i];
     if (circle_of_rebel[i] != circle || edge.corner < 0) continue;
     // Image motion divided by the image motion of a static point at a depth of 1 m.
-    const Vec2 flow_px = parallax_px_m(camera_, field.displacement_C_m(), edge.origin);
+    const Vec2 flow_px = field.parallax_px_m(edge.origin);
     const Vec2 step_px = edge.velocity() * field.dt_s();
     if (!(flow_px.norm() > 0)) continue;
     apparent_pm_.push_back(flow_px.dot(step_px) / flow_px.squaredNorm());

@@ -6,6 +6,7 @@
 #include "filter/vectors/vectors.h"
 
 namespace lcs::avx2 {
+#include "filter/vectors/lanes.inl"
 #include "filter/vectors/loops.inl"
 
 const Loops& loops() {

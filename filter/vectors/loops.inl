@@ -1,23 +1,6 @@
 // The loops of vectors.h. Included by a file for each set of instructions, inside of its namespace.
-// Uses no inline function of a header, which would be compiled for one set and linked for all.
-
-using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Doubles = double __attribute__((vector_size(4 * kLanes)));
-using Longs = std::int64_t __attribute__((vector_size(4 * kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
 namespace {
-
-template <class Number>
-inline __attribute__((always_inline)) auto load(const Number* from) {
-  Number __attribute__((vector_size(4 * kLanes))) values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-
-inline __attribute__((always_inline)) void store(const Floats& values, float* to) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
 
 #ifdef __AVX2__
 /// For each set of lanes: the lanes of the set, in order.
@@ -36,9 +19,8 @@ constexpr Orders kOrders;
 #endif
 
 /// Appends the values of the lanes that are kept, and their places.
-inline __attribute__((always_inline)) std::size_t append(const Ints& kept, const Floats& values,
-                                                         std::size_t first, int* places,
-                                                         float* to) {
+LCS_INLINE std::size_t append(const Ints& kept, const Floats& values, std::size_t first,
+                              int* places, float* to) {
 #ifdef __AVX2__
   const auto set = static_cast<unsigned>(_mm256_movemask_ps((__m256)kept));
   const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i*)kOrders.of[set]));
@@ -55,84 +37,6 @@ inline __attribute__((always_inline)) std::size_t append(const Ints& kept, const
   }
   return count;
 #endif
-}
-
-constexpr Ints kLane = {0, 1, 2, 3, 4, 5, 6, 7};
-
-/// Whether any lane is set.
-inline __attribute__((always_inline)) bool any(const Ints& lanes) {
-#ifdef __AVX2__
-  return _mm256_movemask_ps((__m256)lanes) != 0;
-#else
-  bool found = false;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) found |= lanes[lane] != 0;
-  return found;
-#endif
-}
-
-/// The sum of the lanes, in an order that is the same on any machine.
-template <class Lanes>
-inline __attribute__((always_inline)) auto total(const Lanes& lanes) {
-  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
-         ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
-}
-
-/// The lanes that lie before the end of a range.
-inline __attribute__((always_inline)) Ints before(std::size_t first, std::size_t last) {
-  return kLane < static_cast<std::int32_t>(last - first);
-}
-
-inline __attribute__((always_inline)) Floats larger(const Floats& a, const Floats& b) {
-#ifdef __AVX2__
-  return (Floats)_mm256_max_ps((__m256)a, (__m256)b);
-#else
-  return a > b ? a : b;
-#endif
-}
-
-/// e^x, with a relative error below 2e-7, for -87 < x < 88; at the bounds beyond them.
-inline __attribute__((always_inline)) Floats exp_of(const Floats& argument) {
-  Floats x = argument < -87.0F ? Floats{} - 87.0F : argument;
-  x = x > 88.0F ? Floats{} + 88.0F : x;
-  // 1.5 * 2^23 is added to round to an integer.
-  const Floats n = (x * 1.44269504F + 12582912.0F) - 12582912.0F;
-  const Floats r = (x - n * 0.693359375F) + n * 2.12194440e-4F;  // |r| <= ln 2 / 2
-  // The polynomial of Cephes' expf (S. Moshier).
-  Floats p = 1.9875691500e-4F * r + 1.3981999507e-3F;
-  p = p * r + 8.3334519073e-3F;
-  p = p * r + 4.1665795894e-2F;
-  p = p * r + 1.6666665459e-1F;
-  p = p * r + 5.0000001201e-1F;
-  p = p * r * r + r + 1.0F;
-  const Ints power = (__builtin_convertvector(n, Ints) + 127) << 23;
-  return p * (Floats)power;
-}
-
-inline __attribute__((always_inline)) Doubles root_of(const Doubles& x) {
-#ifdef __AVX2__
-  return (Doubles)_mm256_sqrt_pd((__m256d)x);
-#else
-  return Doubles{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]),
-                 __builtin_sqrt(x[3])};
-#endif
-}
-
-/// e^x, with a relative error below 2e-7, for -700 < x < 700; at the bounds beyond them.
-inline __attribute__((always_inline)) Doubles exp_of(const Doubles& argument) {
-  Doubles x = argument < -700.0 ? Doubles{} - 700.0 : argument;
-  x = x > 700.0 ? Doubles{} + 700.0 : x;
-  // 1.5 * 2^52 is added to round to an integer, whose bits are then the last ones.
-  const Doubles shifted = x * 1.4426950408889634 + 6755399441055744.0;
-  const Doubles n = shifted - 6755399441055744.0;
-  const Doubles r = x - n * 0.6931471805599453;
-  Doubles p = 1.9875691500e-4 * r + 1.3981999507e-3;
-  p = p * r + 8.3334519073e-3;
-  p = p * r + 4.1665795894e-2;
-  p = p * r + 1.6666665459e-1;
-  p = p * r + 5.0000001201e-1;
-  p = p * r * r + r + 1.0;
-  const Longs power = ((Longs)shifted + 1023) << 52;
-  return p * (Doubles)power;
 }
 
 std::size_t within(const float* x_px, const float* y_px, std::size_t first, std::size_t last,
@@ -250,31 +154,6 @@ void half_tanh(const float* m, float* result, std::size_t count) {
   }
 }
 
-/// ln(1 + t) for 0 <= t <= 1, by s = t / (2 + t) <= 1/3: 2 (s + s^3/3 + s^5/5 + ...).
-inline __attribute__((always_inline)) Floats log1p_of(const Floats& t) {
-  const Floats s = t / (2.0F + t), s2 = s * s;
-  Floats sum = s2 * (1.0F / 15) + 1.0F / 13;
-  sum = sum * s2 + 1.0F / 11;
-  sum = sum * s2 + 1.0F / 9;
-  sum = sum * s2 + 1.0F / 7;
-  sum = sum * s2 + 1.0F / 5;
-  sum = sum * s2 + 1.0F / 3;
-  sum = sum * s2 + 1.0F;
-  return 2.0F * s * sum;
-}
-
-/// ln x of normal numbers above 0.
-inline __attribute__((always_inline)) Floats log_of(const Floats& x) {
-  const Floats exponent = __builtin_convertvector(((Ints)x >> 23) - 127, Floats);
-  const Floats mantissa = (Floats)(((Ints)x & 0x7fffff) | 0x3f800000);  // in [1, 2)
-  return exponent * 0.6931471805599453F + log1p_of(mantissa - 1.0F);
-}
-
-/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
-inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
-  return (x > 0.0F ? x : Floats{}) + log1p_of(exp_of(x < 0.0F ? x : -x));
-}
-
 void votes(const PairColumns& pairs, const int* neighbours, const float* weights,
            const float* ln_clutter, std::size_t count, std::size_t asked, float* sums) {
   const Floats step_x = load(pairs.step_x_px + asked), step_y = load(pairs.step_y_px + asked);
@@ -295,67 +174,9 @@ void votes(const PairColumns& pairs, const int* neighbours, const float* weights
   store(total(votes), sums);
 }
 
-void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,
-                 const double* root, NormalSums& sums) {
-  Doubles information[21] = {}, pull[6] = {};
-  for (std::size_t k = 0; k < count; k += 4) {
-    const Doubles hx = load(residuals.h_x + k), hy = load(residuals.h_y + k);
-    const Doubles motion = load(residuals.motion_s + k) * residuals.focal_px;
-    const double f = residuals.focal_px;
-    const Doubles J[2][6] = {
-        {f * hx * hy, -f * (1.0 + hx * hx), f * hy, -motion, Doubles{}, motion * hx},
-        {f * (1.0 + hy * hy), -f * hx * hy, -f * hx, Doubles{}, -motion, motion * hy}};
-    const Doubles off[2] = {load(residuals.off_x_px + k), load(residuals.off_y_px + k)};
-    Doubles left[2] = {off[0], off[1]};
-    // Covariance S of the residual; T adds the covariance of the fix, J root (J root)^T.
-    const Doubles S_xx = load(residuals.S_xx_px2 + k), S_xy = load(residuals.S_xy_px2 + k);
-    const Doubles S_yy = load(residuals.S_yy_px2 + k);
-    Doubles T_xx = S_xx, T_xy = S_xy, T_yy = S_yy;
-    for (int column = 0; column < 6; ++column) {
-      Doubles spread[2] = {};
-      for (int row = column; row < 6; ++row) {
-        const double entry = root[row * (row + 1) / 2 + column];
-        spread[0] += J[0][row] * entry;
-        spread[1] += J[1][row] * entry;
-      }
-      T_xx += spread[0] * spread[0];
-      T_xy += spread[0] * spread[1];
-      T_yy += spread[1] * spread[1];
-      left[0] -= J[0][column] * fix[column];
-      left[1] -= J[1][column] * fix[column];
-    }
-    const Doubles T_det = T_xx * T_yy - T_xy * T_xy;
-    const Doubles distance2 =
-        (left[0] * left[0] * T_yy - 2.0 * left[0] * left[1] * T_xy + left[1] * left[1] * T_xx) /
-        T_det;
-    const Doubles stands = load(residuals.stands + k) * exp_of(-0.5 * distance2) /
-                           (6.283185307179586 * root_of(T_det));
-    const Doubles weight =
-        load(residuals.voice + k) * stands / (stands + load(residuals.otherwise_ppx2 + k));
-    const Doubles precision = weight / (S_xx * S_yy - S_xy * S_xy);
-    const Doubles P_xx = S_yy * precision, P_xy = -S_xy * precision, P_yy = S_xx * precision;
-    for (int row = 0, entry = 0; row < 6; ++row) {
-      const Doubles weighed[2] = {P_xx * J[0][row] + P_xy * J[1][row],
-                                  P_xy * J[0][row] + P_yy * J[1][row]};
-      for (int column = row; column < 6; ++column, ++entry) {
-        information[entry] += weighed[0] * J[0][column] + weighed[1] * J[1][column];
-      }
-      pull[row] += weighed[0] * off[0] + weighed[1] * off[1];
-    }
-  }
-  for (int i = 0; i < 21; ++i) {
-    sums.information[i] =
-        (information[i][0] + information[i][1]) + (information[i][2] + information[i][3]);
-  }
-  for (int i = 0; i < 6; ++i) {
-    sums.pull[i] = (pull[i][0] + pull[i][1]) + (pull[i][2] + pull[i][3]);
-  }
-}
-
 #ifdef __AVX2__
 /// The numbers of bits that differ between a signature and four others.
-inline __attribute__((always_inline)) __m128i bits_apart(const Signature& one,
-                                                         const Signature* many, const int* places) {
+LCS_INLINE __m128i bits_apart(const Signature& one, const Signature* many, const int* places) {
   const __m256i bits_of =
       _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
   const __m256i low = _mm256_set1_epi8(15), a = _mm256_loadu_si256((const __m256i*)&one);
@@ -404,44 +225,7 @@ std::size_t alike(const Signature& one, const Signature* many, const int* places
   return kept;
 }
 
-/// The numbers of a column with a stride that lie at some indices.
-inline __attribute__((always_inline)) Floats gather(const float* from, const Ints& indices) {
-#ifdef __AVX2__
-  return (Floats)_mm256_i32gather_ps(from, (__m256i)indices, 4);
-#else
-  Floats values;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) values[lane] = from[indices[lane]];
-  return values;
-#endif
-}
-
-/// ln of the density of a share over its largest one.
-inline __attribute__((always_inline)) Floats ln_off_of(const ExpectedTrack::Share& first,
-                                                       const Ints& indices, float x_px,
-                                                       float y_px) {
-  const Floats x = x_px - gather(&first.x_px, indices), y = y_px - gather(&first.y_px, indices);
-  return -0.5F * (x * x * gather(&first.P_xx, indices) + y * y * gather(&first.P_yy, indices)) -
-         x * y * gather(&first.P_xy, indices);
-}
-
-void densities(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
-               float y_px, float* ln_density, float* ln_off) {
-  constexpr int kStride = sizeof(ExpectedTrack) / sizeof(float);
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    Ints indices;
-    __builtin_memcpy(&indices, which + i, sizeof indices);
-    indices = before(i, count) ? indices * kStride : Ints{};
-    const Floats still = ln_off_of(tracks->still, indices, x_px, y_px);
-    const Floats moving = ln_off_of(tracks->moving, indices, x_px, y_px);
-    store(larger(still, moving), ln_off + i);
-    store(log_of(gather(&tracks->still.most_ppx2, indices) * exp_of(still) +
-                 gather(&tracks->moving.most_ppx2, indices) * exp_of(moving) +
-                 gather(&tracks->anywhere_ppx2, indices)),
-          ln_density + i);
-  }
-}
-
-constexpr Loops kLoops = {within,       count_within, ranks, ties,        tied_sums, links,
-                          exponentials, half_tanh,    votes, normal_sums, densities, alike};
+constexpr Loops kLoops = {within, count_within, ranks,     ties,  tied_sums,
+                          links,  exponentials, half_tanh, votes, alike};
 
 }  // namespace

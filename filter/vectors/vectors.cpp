@@ -3,7 +3,16 @@
 #include <cstdint>
 
 namespace lcs {
+#include "filter/vectors/lanes.inl"
 #include "filter/vectors/loops.inl"
+
+bool has_avx2() {
+#if defined(LCS_AVX2)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
+#else
+  return false;
+#endif
+}
 
 const Loops& plain_loops() {
   return kLoops;
@@ -16,7 +25,7 @@ const Loops& loops();
 
 const Loops& best_loops() {
 #if defined(LCS_AVX2)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt")) return avx2::loops();
+  if (has_avx2()) return avx2::loops();
 #endif
   return kLoops;
 }

@@ -47,19 +47,6 @@ struct LinkColumns {
   float far2;  ///< bound of squared distances, in units and in deviations of the values
 };
 
-/// Where a track is expected in this frame (MODEL.md (6)): normal densities, each times its
-/// probability, and a uniform one.
-struct ExpectedTrack {
-  struct Share {
-    float x_px, y_px;
-    float P_xx, P_xy, P_yy;  ///< precision, 1/px^2
-    float most_ppx2;         ///< the largest density; 0 for none
-  };
-  float x_px, y_px;  ///< its rotated place
-  Share still, moving;
-  float anywhere_ppx2;
-};
-
 /// Columns of candidate pairs of corners and tracks, padded; a corner's pairs lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
@@ -68,23 +55,6 @@ struct PairColumns {
   /// Variance on an axis of the difference of two steps of one body: this, and a share of the
   /// squared step (MODEL.md (7)).
   float variance_px2, share2;
-};
-
-/// Columns of residuals of static tracks (MODEL.md (8)), padded by residuals of weight 0.
-struct ResidualColumns {
-  const double *h_x, *h_y;  ///< rays of the places
-  const double* motion_s;   ///< inverse depth times the frame's time, by which a velocity acts, s/m
-  const double *off_x_px, *off_y_px;
-  const double *S_xx_px2, *S_xy_px2, *S_yy_px2;  ///< covariance of the residual
-  const double* voice;
-  const double *stands, *otherwise_ppx2;  ///< as in `Residual`
-  double focal_px;
-};
-
-/// Sums of weighted least squares for six unknowns, row by row.
-struct NormalSums {
-  double information[21];  ///< upper triangle
-  double pull[6];
 };
 
 struct Loops {
@@ -119,16 +89,6 @@ struct Loops {
   /// \param neighbours corners. \param weights, ln_clutter of each. \param asked the first pair.
   void (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
                 const float* ln_clutter, std::size_t count, std::size_t asked, float* sums);
-  /// Sums of the equations of (9) for the turn and the velocity.
-  /// \param fix present estimate.
-  /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
-  void (*normal_sums)(const ResidualColumns& residuals, std::size_t count, const double* fix,
-                      const double* root, NormalSums& sums);
-  /// The densities (6) of a corner for some tracks.
-  /// \param which indices of tracks; padded.
-  /// \param ln_density, ln_off padded: of the density; of the larger share of its largest value.
-  void (*densities)(const ExpectedTrack* tracks, const int* which, std::size_t count, float x_px,
-                    float y_px, float* ln_density, float* ln_off);
   /// Finds the signatures at some places of a list that are at most `most_bits` from one.
   /// \param found room for all.
   std::size_t (*alike)(const Signature& one, const Signature* many, const int* places,
@@ -140,6 +100,9 @@ const Loops& plain_loops();
 
 /// The loops by this machine's instructions.
 const Loops& best_loops();
+/// Whether this machine has the instructions of the files compiled with -mavx2 -mpopcnt, and they
+/// were compiled.
+bool has_avx2();
 inline const Loops& loops() {
   static const Loops& best = best_loops();
   return best;

@@ -17,14 +17,14 @@
 #include "filter/edges/edge_parameters.h"
 #include "filter/edges/gauss.h"
 #include "filter/edges/neighbourhood.h"
-#include "filter/edges/static_point.h"
-#include "filter/edges/track.h"
+#include "filter/edges/tracks.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
 #include "filter/types/signature.h"
 #include "tests/filter/hypotheses_support.h"
+#include "tests/filter/scalar_track.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -35,8 +35,11 @@ using testing::density;
 using testing::kDt_s;
 using testing::kNoise2_px2;
 using testing::kUsual;
+using testing::OwnMotion;
 using testing::Random;
+using testing::StaticPoint;
 using testing::steady_motion;
+using testing::Track;
 using testing::vga;
 
 // ---- Association
@@ -70,7 +73,13 @@ std::vector<int> match(const EdgeParameters& parameters, const Chi& chi,
                        const std::vector<Track>& tracks) {
   Neighbourhood around;
   around.build(chi.locations, parameters.neighbour_reach_px, parameters.neighbours);
-  return Association(parameters).match(chi, around, tracks, kNoise2_px2, kDt_s);
+  const MotionField still(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
+  TrackFrame frame = track_frame(vga(), still, parameters);
+  frame.noise2_px2 = static_cast<float>(kNoise2_px2);
+  Tracks predicted = testing::columns_of(tracks);
+  std::vector<int> track_of = Association(parameters).match(chi, around, predicted, frame);
+  track_of.resize(chi.size());
+  return track_of;
 }
 
 /// Corners with jitter that appear and vanish; some belong to a moving group.
@@ -256,7 +265,7 @@ TEST(Association, AgreementOfNeighboursBeatsANearerChanceMatch) {
 TEST(Association, ReachesNoFartherThanTheFastest) {
   EdgeParameters parameters = kUsual;
   parameters.max_speed_pxps = 600;
-  EXPECT_DOUBLE_EQ(Association(parameters).reach_px(0.02), 12);
+  EXPECT_DOUBLE_EQ(parameters.reach_px(0.02), 12);
   const std::vector<Track> tracks = {track_at({300, 200})};
   const Signature same{};
   Track fast = tracks[0];

@@ -120,13 +120,13 @@ void expect_equivariant(const AnyParameters& parameters, const Intrinsics& other
     const FrameResult& a = straight.step(frames[k], motion);
     const FrameResult& b = transformed.step(corners, turned);
     ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << k;
-    // The two filters add their sums in different orders.
+    // The two filters add their sums in different orders; places are in single precision.
     const auto expect_same_points = [&](const auto& from, const auto& to, const char* what) {
       ASSERT_EQ(from.size(), to.size()) << what << ", frame " << k;
       for (const auto& item : from) {
         const Vec2 expected = pixel(item.location);
         const bool found = std::any_of(to.begin(), to.end(), [&](const auto& other) {
-          return (other.location - expected).norm() < 1e-6 && other.trust == item.trust;
+          return (other.location - expected).norm() < 1e-3 && other.trust == item.trust;
         });
         EXPECT_TRUE(found) << what << ", frame " << k;
       }

@@ -4,8 +4,8 @@
 
 #include "filter/edges/edge_parameters.h"
 #include "filter/edges/gauss.h"
-#include "filter/edges/static_point.h"
 #include "filter/kinematics/camera.h"
+#include "tests/filter/scalar_track.h"
 
 namespace lcs::testing {
 

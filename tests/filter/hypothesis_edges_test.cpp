@@ -169,7 +169,7 @@ TEST(CornerNoise, MissesAreAsLargeAsExpectedAtAnyNoise) {
           ++count;
         }
         noise.fade(0.96);
-        noise.add(miss2, 1);
+        noise.add(miss2 / 2, 1);
       }
     }
     EXPECT_GT(sum / count, 1.8) << sigma_px;

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "filter/edges/motion_fix.h"
-#include "filter/edges/static_point.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
 #include "tests/filter/hypotheses_support.h"
+#include "tests/filter/scalar_track.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -25,8 +25,12 @@ using Eigen::Vector3d;
 using testing::kDt_s;
 using testing::kNoise2_px2;
 using testing::Random;
+using testing::Residual;
 using testing::steady_motion;
 using testing::vga;
+
+/// Covariance of the given velocity, (m/s)^2: 2 cm/s on each axis.
+const Eigen::Matrix3d kWrong = 4e-4 * Eigen::Matrix3d::Identity();
 
 /// A camera moves ahead; its given motion has an error in turn and velocity. Static points cover
 /// the picture, each with its offset from the expected place.
@@ -42,7 +46,7 @@ struct Misled {
       const double ratio = told.reference_depth_m() / random.uniform(2, 10);
       const Vec2 expected = told.translated(told.rotated(before), ratio);
       const Vec2 x = truth.translated(truth.rotated(before), ratio);
-      const Vec2 by_depth = 0.5 * parallax_px_m(vga(), told.displacement_C_m(), expected);
+      const Vec2 by_depth = 0.5 * told.parallax_px_m(expected);
       residuals.push_back({expected, x - expected + random.vector(0.3).head<2>(),
                            kNoise2_px2 * Eigen::Matrix2d::Identity(), by_depth,
                            ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
@@ -53,6 +57,15 @@ struct Misled {
     EgoMotion motion = steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s);
     motion.unseen_turn_rad = unseen_turn_rad;
     return motion;
+  }
+
+  MotionFix fix() const {
+    const auto misses = testing::columns_of(residuals, vga(), kDt_s, kWrong.trace() / 3);
+    return find_motion_fix(vga(), told, misses.data(), residuals.size(), kWrong);
+  }
+  bool is_contradicted() const {
+    const auto misses = testing::columns_of(residuals, vga(), kDt_s, kWrong.trace() / 3);
+    return lcs::is_contradicted(misses.data(), residuals.size());
   }
 
   /// Largest distance of a field from the true one across the parallax, px.
@@ -68,9 +81,6 @@ struct Misled {
   }
 };
 
-/// Covariance of the given velocity, (m/s)^2: 2 cm/s on each axis.
-const Eigen::Matrix3d kWrong = 4e-4 * Eigen::Matrix3d::Identity();
-
 TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
   Random random(5);
   for (const auto& [turn, velocity] :
@@ -81,7 +91,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
       misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
     }
     const double before = misled.worst_across(misled.told);
-    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = misled.fix();
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a sideways velocity look alike at known depths, and each
@@ -99,7 +109,7 @@ TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
     for (std::size_t i = 0; i < misled.residuals.size(); i += 2) {
       misled.residuals[i].off_px = Vec2(50, -100) + 50 * random.vector(1).head<2>();
     }
-    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = misled.fix();
     // The fix is linear in the turn.
     EXPECT_LT((fix.turn_rad - turn).norm(), 1e-3 + turn.squaredNorm() / 2) << "seed " << seed;
   }
@@ -112,7 +122,7 @@ TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   for (Residual& residual : misled.residuals) {
     residual.off_px += 3 * misled.told.direction(residual.place_px);
   }
-  const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
+  const MotionFix fix = misled.fix();
   EXPECT_LT(fix.turn_rad.norm(), 2e-4);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
@@ -125,7 +135,7 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
     misled.residuals[i].stands = 0.01;
     misled.residuals[i].otherwise_ppx2 = 0.2;
   }
-  const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
+  const MotionFix fix = misled.fix();
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
@@ -135,7 +145,7 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   double turn = 0;
   for (const int residuals : {0, 20, 200}) {
     const Misled misled({1e-3, 0, 0}, Vector3d::Zero(), residuals, random);
-    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = misled.fix();
     if (residuals == 0) {
       EXPECT_EQ(fix.turn_rad.norm(), 0);
       EXPECT_TRUE(fix.velocity_covariance.isApprox(kWrong));
@@ -151,13 +161,13 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
 /// Known movers give no information about the motion.
 TEST(MotionFix, IsContradictedWhereMoreLeaveThanFourFifths) {
   Random random(9);
-  EXPECT_FALSE(is_contradicted({}));
+  EXPECT_FALSE(Misled(Vector3d::Zero(), Vector3d::Zero(), 0, random).is_contradicted());
   for (const std::size_t leave : {0, 100, 155, 170, 200}) {
     Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
     for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].off_px = {30, 40};
-    EXPECT_EQ(is_contradicted(misled.residuals), leave > 160) << leave;
+    EXPECT_EQ(misled.is_contradicted(), leave > 160) << leave;
     for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].stands = 0.1;
-    EXPECT_FALSE(is_contradicted(misled.residuals)) << leave;
+    EXPECT_FALSE(misled.is_contradicted()) << leave;
   }
 }
 

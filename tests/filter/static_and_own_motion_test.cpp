@@ -1,4 +1,5 @@
-/// The two hypotheses of an edge, each alone: a static point, and a motion of its own.
+/// The two hypotheses of an edge, each alone: a static point, and a motion of its own. The loops of
+/// the filter are compared with them in track_loops_test.cpp.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -6,12 +7,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "filter/edges/static_point.h"
-#include "filter/edges/track.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/kinematics/motion_field.h"
 #include "tests/filter/hypotheses_support.h"
+#include "tests/filter/scalar_track.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -19,10 +19,14 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::density;
+using testing::depth_bounds;
+using testing::DepthBounds;
 using testing::kDt_s;
 using testing::kNoise2_px2;
 using testing::kUsual;
+using testing::OwnMotion;
 using testing::Random;
+using testing::StaticPoint;
 using testing::steady_motion;
 using testing::vga;
 using testing::World;
