@@ -45,12 +45,11 @@ void Association::Sought::build(const Tracks& predicted, double cell_px) {
   }
 }
 
-/// Places the tracks where they are looked for.
-void Association::seek(const Tracks& predicted, double dt_s) {
+/// Places all tracks about their rotated places, and those of three sightings where they are
+/// expected.
+void Association::seek(const Tracks& predicted) {
   followed_.clear();
   all_.clear();
-  all_.reach_px = parameters_.reach_px(dt_s);
-  followed_.reach_px = std::min(parameters_.neighbour_reach_px, all_.reach_px);
   for (std::size_t t = 0; t < predicted.size(); ++t) {
     all_.places.push_back(predicted.point(kPlaceX, t));
     all_.tracks.push_back(static_cast<int>(t));
@@ -68,9 +67,9 @@ void Association::seek(const Tracks& predicted, double dt_s) {
 /// \return whether it surely continues one of them: near its prediction, with a signature of
 ///   which few bits differ.
 bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
-                             const Tracks& predicted, const Sought& sought) {
+                             const Tracks& predicted, const Sought& sought, double reach_px) {
   bool is_sure = false;
-  std::size_t count = sought.grid.find_within(x_px, sought.reach_px, near_);
+  std::size_t count = sought.grid.find_within(x_px, reach_px, near_);
   if (signature != nullptr) {
     count = loops().alike(*signature, sought.signatures.data(), near_.places.data(), count,
                           most_bits_, alike_.data());
@@ -84,15 +83,17 @@ bool Association::find_pairs(std::size_t corner, const Vec2& x_px, const Signatu
                           ln_density_.data(), ln_off_.data());
   const float *const place_x = predicted.columns[kPlaceX], *const place_y =
                                                                predicted.columns[kPlaceY];
-  const double reach2_px2 = all_.reach_px * all_.reach_px;
+  const double reach2_px2 = reach_px_ * reach_px_;
   for (std::size_t i = 0; i < count; ++i) {
     // Static points are not followed at steps that are too large for movers, either.
     const Eigen::Vector2f place(place_x[which_[i]], place_y[which_[i]]);
     if ((place - x).squaredNorm() > reach2_px2) continue;
     const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
     // Half as far as a pair may be, in deviations and in bits.
-    is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
-                          ln_off_[i] > -0.5 * (0.5 * kFar) * (0.5 * kFar));
+    if (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
+        ln_off_[i] > -0.5 * (0.5 * kFar) * (0.5 * kFar)) {
+      is_sure = true;
+    }
     offer(corner, {ln_density_[i] + likeness, which_[i], static_cast<float>(likeness)});
   }
   return is_sure;
@@ -112,13 +113,15 @@ void Association::find_pairs(const Chi& chi, const Tracks& predicted) {
   for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) {
     refill_column(*column, pairs_.size());
   }
+  refill(is_sure_, chi.size());
   ln_clutter_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
-    if (!find_pairs(c, x, signature, predicted, followed_)) {
+    is_sure_[c] = find_pairs(c, x, signature, predicted, followed_, close_px_);
+    if (!is_sure_[c]) {
       counts_[c] = 0;
-      find_pairs(c, x, signature, predicted, all_);
+      find_pairs(c, x, signature, predicted, all_, reach_px_);
     }
     crowd_[c] = 1 + static_cast<float>(all_.grid.count_within(x, parameters_.neighbour_reach_px));
     const float ln_clutter =
@@ -133,38 +136,30 @@ void Association::find_pairs(const Chi& chi, const Tracks& predicted) {
   }
 }
 
-/// Sets the weight of each voice.
-void Association::weigh_voices(const Neighbourhood& around) {
-  const double near = parameters_.neighbour_reach_px;
-  voices_.clear();
-  refill_column(voice_weights_, around.all().size());
-  refill_column(voice_clutter_, around.all().size());
-  for (const Neighbour& other : around.all()) {
-    const std::size_t voice = voices_.size();
-    voice_weights_[voice] = static_cast<float>(other.distance2);
-    voice_clutter_[voice] = ln_clutter_[static_cast<std::size_t>(other.index)];
-    voices_.push_back(other.index);
-  }
-  loops().exponentials(voice_weights_.data(), voices_.size(),
-                       static_cast<float>(-0.5 / (near * near)));
-}
-
 /// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
 /// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
-Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                                          const PairColumns& pairs) const {
-  const double far_px = kFar * parameters_.neighbour_reach_px, far2_px2 = far_px * far_px;
-  const std::size_t first_voice = corner * voices.size();
+/// \param others its neighbours, nearest first.
+Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> others,
+                                          const PairColumns& pairs) {
+  const double near = parameters_.neighbour_reach_px, far2_px2 = kFar * kFar * near * near;
+  refill_column(voices_, others.size());
+  refill_column(voice_weights_, others.size());
+  refill_column(voice_clutter_, others.size());
   std::size_t count = 0;
-  while (count < voices.size() && voices[count].distance2 <= far2_px2) ++count;
+  for (; count < others.size() && others[count].distance2 <= far2_px2; ++count) {
+    voices_[count] = others[count].index;
+    voice_weights_[count] = static_cast<float>(others[count].distance2);
+    voice_clutter_[count] = ln_clutter_[static_cast<std::size_t>(others[count].index)];
+  }
+  loops().exponentials(voice_weights_.data(), count, static_cast<float>(-0.5 / (near * near)));
   Match best{0, static_cast<int>(corner), -1, 0};
   std::array<float, kLanes> votes;
   const std::size_t first = corner * most_pairs_, end = first + counts_[corner];
   for (std::size_t p = first; p < end; ++p) {
     const std::size_t lane = (p - first) % kLanes;
     if (lane == 0) {
-      loops().votes(pairs, voices_.data() + first_voice, voice_weights_.data() + first_voice,
-                    voice_clutter_.data() + first_voice, count, p, votes.data());
+      loops().votes(pairs, voices_.data(), voice_weights_.data(), voice_clutter_.data(), count, p,
+                    votes.data());
     }
     const Pair& pair = pairs_[p];
     const double weight = pair.weight + votes[lane];
@@ -182,9 +177,10 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   refill(crowd_, chi.size() + kLanes, 1.0F);
   if (predicted.size() == 0 || chi.size() == 0) return track_of_;
   track_loops().expect(frame, predicted.size(), predicted.columns.data());
-  seek(predicted, double{frame.dt_s});
+  reach_px_ = parameters_.reach_px(double{frame.dt_s});
+  close_px_ = kFar * kFar * std::sqrt(double{frame.noise2_px2});
+  seek(predicted);
   find_pairs(chi, predicted);
-  weigh_voices(around);
   const PairColumns pairs = {step_x_.data(),
                              step_y_.data(),
                              likeness_of_.data(),
@@ -195,10 +191,14 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (counts_[c] == 0) continue;
-    const Match best = best_pair(c, around.of(c), pairs);
+    const Pair& likeliest = pairs_[c * most_pairs_];
+    const Match best = is_sure_[c] ? Match{likeliest.weight, static_cast<int>(c), likeliest.track,
+                                           likeliest.likeness}
+                                   : best_pair(c, around.of(c), pairs);
     if (best.track >= 0) matches_.push_back(best);
   }
-  std::ranges::sort(matches_, [](const Match& a, const Match& b) {
+  std::ranges::sort(matches_, [&](const Match& a, const Match& b) {
+    if (is_sure_[a.corner] != is_sure_[b.corner]) return is_sure_[a.corner] > is_sure_[b.corner];
     return a.weight > b.weight || (a.weight == b.weight && a.corner < b.corner);
   });
   refill(taken_, predicted.size());

@@ -1,13 +1,14 @@
 /// \file
 /// Assigns corners to tracks, one to one.
 ///
-/// A corner that surely continues a track, by the track's prediction and signature, is compared
-/// only with the tracks that are predicted near it; any other corner with all tracks within reach.
+/// A corner that surely continues a track, by the track's prediction and signature, takes the
+/// likeliest of the tracks that are predicted close to it; then any other corner, one of all tracks
+/// within reach.
 ///
 /// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
-/// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
-/// with the same ratio for the same step. Many votes for one step make a chance match unlikely. A
-/// vote from corners that look alike counts little.
+/// density of tracks there, times the likelihood ratio of the signatures. For other corners the
+/// neighbours vote with the same ratio for the same step. Many votes for one step make a chance
+/// match unlikely. A vote from corners that look alike counts little.
 #pragma once
 
 #include <Eigen/Core>
@@ -67,21 +68,18 @@ class Association {
     // In the order of the grid:
     std::vector<int> track_at;
     std::vector<Signature> signatures;
-    double reach_px = 0;
 
     void clear();
     void build(const Tracks& predicted, double cell_px);
   };
 
   bool find_pairs(std::size_t corner, const Vec2& x_px, const Signature* signature,
-                  const Tracks& predicted, const Sought& sought);
-  void seek(const Tracks& predicted, double dt_s);
+                  const Tracks& predicted, const Sought& sought, double reach_px);
+  void seek(const Tracks& predicted);
   void find_pairs(const Chi& chi, const Tracks& predicted);
   void offer(std::size_t corner, const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
-  void weigh_voices(const Neighbourhood& around);
-  Match best_pair(std::size_t corner, std::span<const Neighbour> voices,
-                  const PairColumns& pairs) const;
+  Match best_pair(std::size_t corner, std::span<const Neighbour> others, const PairColumns& pairs);
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
@@ -91,6 +89,8 @@ class Association {
   Sought followed_;                         // tracks with three sightings, near their predictions
   Sought all_;                              // all tracks, about their rotated places
   PointGrid::Found near_;                   // to a corner
+  double close_px_ = 0, reach_px_ = 0;      // where followed tracks and all are looked for
+  std::vector<char> is_sure_;               // of each corner: surely continues a track
   std::vector<Alike> alike_;                // of these, to its signature
   std::vector<int> which_;                  // the tracks of these
   std::vector<float> ln_density_, ln_off_;  // `TrackLoops::densities` of these
@@ -100,7 +100,7 @@ class Association {
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<float> crowd_;                          // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner
-  // The voices of each corner, nearest first: its neighbours, with weights and ln_clutter.
+  // The voices of a corner, nearest first: its neighbours, with weights and ln_clutter.
   std::vector<int> voices_;
   std::vector<float> voice_weights_, voice_clutter_;
   std::vector<Match> matches_;

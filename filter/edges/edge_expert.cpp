@@ -163,19 +163,28 @@ bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& firs
 /// Corrects the motion by the misses of the corners' static predictions, and predicts anew by it.
 /// \param started whether only tracks with a motion count.
 MotionField EdgeExpert::corrected(const MotionField& field, bool started) {
-  misses_.make(corners_);
-  const double variance_m2ps2 = velocity_error_.covariance().trace() / 3;
-  track_loops().misses(frame_of(field), predicted_.columns.data(), sightings(), corners_, started,
-                       variance_m2ps2, misses_.data());
-  const MotionFix off =
-      find_motion_fix(camera_, field, misses_.data(), corners_, velocity_error_.covariance());
-  const MotionField right = field.corrected(off.turn_rad, velocity_error_.update(off));
-  predict(right, frame_of(right), predicted_);
+  asked_.clear();
   for (std::size_t c = 0; c < corners_; ++c) {
     if (track_of_[c] < 0) continue;
-    const Vec2 expected_px = predicted_.point(kStaticX, static_cast<std::size_t>(track_of_[c]));
-    misses_[kOffX][c] = x_px_[c] - expected_px.x();
-    misses_[kOffY][c] = y_px_[c] - expected_px.y();
+    if (started && !predicted_.has_motion(static_cast<std::size_t>(track_of_[c]))) continue;
+    asked_.push_back(static_cast<int>(c));
+  }
+  const std::size_t count = asked_.size();
+  asked_.resize(count + kLanes);
+  misses_.make(count);
+  const double variance_m2ps2 = velocity_error_.covariance().trace() / 3;
+  track_loops().misses(frame_of(field), predicted_.columns.data(), sightings(), asked_.data(),
+                       count, started, variance_m2ps2, misses_.data());
+  const MotionFix off =
+      find_motion_fix(camera_, field, misses_.data(), count, velocity_error_.covariance());
+  const MotionField right = field.corrected(off.turn_rad, velocity_error_.update(off));
+  predict(right, frame_of(right), predicted_);
+  asked_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int c = asked_[i];
+    const auto t = static_cast<std::size_t>(track_of_[c]);
+    misses_[kOffX][i] = x_px_[c] - predicted_.at(kStaticX, t);
+    misses_[kOffY][i] = y_px_[c] - predicted_.at(kStaticY, t);
   }
   return right;
 }
@@ -342,7 +351,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     field = corrected(field, started);
     // In the second frame no depth is known that could contradict the motion. It is checked only if
     // the motion of the last frame was contradicted.
-    if ((started || is_after_none) && is_contradicted(misses_.data(), corners_)) {
+    if ((started || is_after_none) && is_contradicted(misses_.data(), asked_.size())) {
       motion = UsedMotion::none;
     }
   }

@@ -77,13 +77,14 @@ class EdgeExpert {
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;
-  std::size_t corners_ = 0;         // of this frame
-  std::vector<float> x_px_, y_px_;  // of these; padded
-  std::vector<int> track_of_;       // of these, -1: none; padded
-  Tracks tracks_;                   // of the last frame; tracks with a corner first, by chi
-  Tracks predicted_, other_;        // the same, predicted to this frame
-  Columns<double, kMissColumns> misses_;
-  std::vector<int> kept_;  // whether a corner's track was continued
+  std::size_t corners_ = 0;               // of this frame
+  std::vector<float> x_px_, y_px_;        // of these; padded
+  std::vector<int> track_of_;             // of these, -1: none; padded
+  Tracks tracks_;                         // of the last frame; tracks with a corner first, by chi
+  Tracks predicted_, other_;              // the same, predicted to this frame
+  std::vector<int> asked_;                // corners whose tracks may correct the motion
+  Columns<double, kMissColumns> misses_;  // of these
+  std::vector<int> kept_;                 // whether a corner's track was continued
   std::vector<float> off2_px2_, shown_;
   std::vector<Coupling::Node> nodes_;
   /// Depths were confirmed by a motion that they were not made with.

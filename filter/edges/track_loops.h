@@ -127,11 +127,12 @@ struct TrackLoops {
   /// \param ln_density, ln_off padded: of the density; of the larger share of its largest value.
   void (*densities)(const float* const* tracks, const int* which, std::size_t count, float x_px,
                     float y_px, float* ln_density, float* ln_off);
-  /// (8): all columns of misses, one for each corner.
-  /// \param started whether only tracks with a motion count.
+  /// (8): all columns of misses, one for each of some corners.
+  /// \param asked indices of corners with tracks; padded.
+  /// \param started whether the tracks have a motion.
   /// \param velocity_variance_m2ps2 of the told velocity, on an axis.
   void (*misses)(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
-                 std::size_t count, bool started, double velocity_variance_m2ps2,
+                 const int* asked, std::size_t count, bool started, double velocity_variance_m2ps2,
                  double* const* misses);
   /// (12) to (17): the tracks after their sightings, corner by corner. A corner of which no track
   /// is left starts a track. \param kept 0 for these corners; padded.

@@ -441,16 +441,15 @@ LCS_INLINE void store_misses(const TrackFrame& frame, const Points& point, const
 }
 
 void misses(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
-            std::size_t count, bool started, double velocity_variance_m2ps2,
+            const int* asked, std::size_t count, bool started, double velocity_variance_m2ps2,
             double* const* misses) {
   const float anywhere = 1 / frame.reach_area_px2;
   const float* const d = frame.displacement_m;
   const Floats none = {};
   for (std::size_t i = 0; i < count; i += kLanes) {
-    const auto [track, valid] = continued(seen, i, count);
-    const Ints has_motion = gather(tracks[kSightings], track) >= 2.0F;
-    const Ints counts = started ? valid & has_motion : valid;
-    const Floats x = load(seen.x_px + i), y = load(seen.y_px + i);
+    const Ints valid = before(i, count), corner = valid ? load_ints(asked + i) : Ints{};
+    const Ints track = gather(seen.track_of, corner);
+    const Floats x = gather(seen.x_px, corner), y = gather(seen.y_px, corner);
     const Points point = gathered(tracks, track);
     Floats w = point.w, w_variance = point.C;
     Floats moving = none + anywhere;
@@ -469,7 +468,7 @@ void misses(const TrackFrame& frame, const float* const* tracks, const Sightings
     const Floats deep = 0.5F * (frame.most_pm - bounds_at(frame, point.x, point.y).least);
     const Places by_depth = {deep * parallax.x, deep * parallax.y};
     const Floats moves = chance_of(gather(tracks[kBelief], track));
-    const Floats voice = counts ? 1.0F / load(seen.crowd + i) : none;
+    const Floats voice = valid ? 1.0F / gather(seen.crowd, corner) : none;
     const Floats otherwise = moves * moving + anywhere;
     store_misses<0>(frame, point, x, y, by_depth, w, w_variance, voice, 1.0F - moves, otherwise,
                     velocity_variance_m2ps2, i, misses);

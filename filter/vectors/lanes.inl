@@ -126,7 +126,7 @@ LCS_INLINE Floats softplus(const Floats& x) {
   return (x > 0.0F ? x : Floats{}) + log1p_of(exp_of(x < 0.0F ? x : -x));
 }
 
-/// The numbers of a column with a stride that lie at some indices.
+/// The numbers of a column that lie at some indices.
 LCS_INLINE Floats gather(const float* from, const Ints& indices) {
 #ifdef __AVX2__
   return (Floats)_mm256_i32gather_ps(from, (__m256i)indices, 4);
@@ -135,6 +135,11 @@ LCS_INLINE Floats gather(const float* from, const Ints& indices) {
   for (std::size_t lane = 0; lane < kLanes; ++lane) values[lane] = from[indices[lane]];
   return values;
 #endif
+}
+LCS_INLINE Ints gather(const int* from, const Ints& indices) {
+  Ints values;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) values[lane] = from[indices[lane]];
+  return values;
 }
 
 }  // namespace
