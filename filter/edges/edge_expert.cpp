@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "filter/edges/edge.h"
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/vectors/refill.h"
@@ -252,62 +251,75 @@ void EdgeExpert::couple(const MotionField& field) {
   }
 }
 
-Edge EdgeExpert::edge_of(std::size_t track, const MotionField& field) const {
-  const Tracks::Record& record = tracks_.records[track];
-  const double belief = tracks_.at(kBelief, track);
-  Edge edge;
-  edge.id = record.id;
-  edge.rebel = belief > 0;
-  edge.location = tracks_.point(kPlaceX, track);
-  edge.predicted = tracks_.point(edge.rebel ? kMovingX : kStaticX, track);
-  edge.depth_ratio = tracks_.at(kInverseDepth_pm, track) * field.reference_depth_m();
-  edge.age = record.age;
-  edge.corner = record.corner;
-  edge.trust = trust_.of_certainty(belief) - record.unseen;
-  if (edge.rebel) {
-    const Vec2 velocity_pxps = tracks_.point(kVelocityX, track);
-    edge.speed = velocity_pxps.norm();
-    if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
-    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is current
-    return edge;
+/// Makes the edges of a kind, by rising id: of tracks with a motion that are trusted, in the
+/// picture.
+void EdgeExpert::make_edges(const Chi& chi, const MotionField& field) {
+  const std::size_t count = tracks_.size();
+  refill_column(speed_pxps_, count);
+  refill_column(angle_, count);
+  refill_column(sure_, count);
+  track_loops().image_motion(frame_of(field), tracks_.columns.data(), count, field.moving(),
+                             speed_pxps_.data(), angle_.data());
+  loops().half_tanh(tracks_.columns[kBelief], sure_.data(), count);
+  const Pixels picture{camera_.width_px, camera_.height_px};
+  order_.clear();
+  make_room(order_, count);
+  for (std::size_t t = 0; t < count; ++t) {
+    if (tracks_.has_motion(t)) order_.emplace_back(tracks_.records[t].id, t);
   }
-  move_as_static(edge, camera_, field);
-  edge.depth_ratio_sigma =
-      std::sqrt(double{tracks_.at(kDepthVariance, track)}) * field.reference_depth_m();
-  return edge;
+  std::ranges::sort(order_);
+  const double reference_m = field.reference_depth_m();
+  for (std::vector<Edge>* kind : {&result_.edges.normal, &result_.edges.rebel}) {
+    kind->clear();
+    make_room(*kind, count);
+  }
+  for (const auto& [id, t] : order_) {
+    const Tracks::Record& record = tracks_.records[t];
+    const int trust = trust_.of_certainty(std::abs(double{sure_[t]})) - record.unseen;
+    const Vec2 location_px = tracks_.point(kPlaceX, t);
+    if (!trust_.alive(trust) || !picture.contain(location_px)) continue;
+    const bool rebel = tracks_.at(kBelief, t) > 0;
+    Edge& edge = (rebel ? result_.edges.rebel : result_.edges.normal).emplace_back();
+    edge.id = id;
+    edge.rebel = rebel;
+    edge.location = location_px;
+    edge.predicted = tracks_.point(rebel ? kMovingX : kStaticX, t);
+    edge.speed = speed_pxps_[t];
+    edge.angle = angle_[t];
+    edge.depth_ratio = tracks_.at(kInverseDepth_pm, t) * reference_m;
+    edge.age = record.age;
+    edge.corner = record.corner >= 0 ? chi.sources[record.corner] : -1;
+    edge.trust = trust;
+    if (rebel) {
+      // So that beta is current.
+      edge.origin = location_px - field.dt_s() * tracks_.point(kVelocityX, t);
+    } else {
+      edge.origin = field.origin(location_px);
+      edge.depth_ratio_sigma = std::sqrt(double{tracks_.at(kDepthVariance, t)}) * reference_m;
+    }
+  }
 }
 
 void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
   auto& [edges, verdicts, reasons, motion] = result_;
-  edges.normal.clear();
-  edges.rebel.clear();
   refill(verdicts, chi.size(), Verdict::pending);
   refill(reasons, chi.size(), Reason::unknown);
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+  for (std::size_t t = 0; t < corners_; ++t) {
     const bool rebel = tracks_.at(kBelief, t) > 0, has_motion = tracks_.has_motion(t);
-    if (t < corners_) {
-      const bool by_itself = (tracks_.at(kLogOdds, t) > 0) == rebel;
-      if (rebel) {
-        verdicts[t] = Verdict::rebel;
-        reasons[t] = !has_motion ? Reason::inherited
-                     : by_itself ? Reason::rebel_edge
-                                 : Reason::rebel_neighbours;
-      } else if (has_motion) {
-        verdicts[t] = Verdict::normal;
-        reasons[t] = by_itself ? Reason::normal_edge : Reason::normal_neighbours;
-      } else {
-        reasons[t] = Reason::first_sighting;
-      }
+    const bool by_itself = (tracks_.at(kLogOdds, t) > 0) == rebel;
+    if (rebel) {
+      verdicts[t] = Verdict::rebel;
+      reasons[t] = !has_motion ? Reason::inherited
+                   : by_itself ? Reason::rebel_edge
+                               : Reason::rebel_neighbours;
+    } else if (has_motion) {
+      verdicts[t] = Verdict::normal;
+      reasons[t] = by_itself ? Reason::normal_edge : Reason::normal_neighbours;
+    } else {
+      reasons[t] = Reason::first_sighting;
     }
-    if (!has_motion) continue;
-    Edge edge = edge_of(t, field);
-    if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
-    (rebel ? edges.rebel : edges.normal).push_back(edge);
   }
-  for (std::vector<Edge>* kind : {&edges.normal, &edges.rebel}) {
-    delete_lost(*kind, camera_, trust_);
-    std::ranges::sort(*kind, {}, &Edge::id);
-  }
+  make_edges(chi, field);
 }
 
 /// Whether nearly all corners would move by themselves. The camera's motion is then wrong; once all

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "filter/edges/association.h"
@@ -64,7 +65,7 @@ class EdgeExpert {
   void couple(const MotionField& field);
   bool do_all_move() const;
   void decide(const Chi& chi, const MotionField& field);
-  Edge edge_of(std::size_t track, const MotionField& field) const;
+  void make_edges(const Chi& chi, const MotionField& field);
 
   Intrinsics camera_;
   EdgeParameters parameters_;
@@ -87,6 +88,8 @@ class EdgeExpert {
   std::vector<int> kept_;                 // whether a corner's track was continued
   std::vector<float> off2_px2_, shown_;
   std::vector<Coupling::Node> nodes_;
+  std::vector<float> speed_pxps_, angle_, sure_;   // of the tracks
+  std::vector<std::pair<Id, std::size_t>> order_;  // of the tracks with a motion
   /// Depths were confirmed by a motion that they were not made with.
   bool is_confirmed_ = false;
   Result result_;

@@ -141,6 +141,12 @@ struct TrackLoops {
   /// (34): the log odds that tracks show to their neighbours; padded.
   void (*show)(const TrackFrame& frame, const float* const* tracks, const float* crowd,
                std::size_t count, float* log_odds);
+  /// Image motion of the tracks, rotation removed: their own if they move, else that of static
+  /// points; padded.
+  /// \param moving whether the camera moves.
+  /// \param angle_rad of the direction; of a point without motion, from the principal point.
+  void (*image_motion)(const TrackFrame& frame, const float* const* tracks, std::size_t count,
+                       bool moving, float* speed_pxps, float* angle_rad);
   /// Square of the distance of a corner from the segment of places that its track would have as a
   /// static point seen in the last frame only, px^2; padded.
   void (*off_segment)(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,

@@ -625,6 +625,28 @@ void show(const TrackFrame& frame, const float* const* tracks, const float* crow
   }
 }
 
+void image_motion(const TrackFrame& frame, const float* const* tracks, std::size_t count,
+                  bool moving, float* speed_pxps, float* angle_rad) {
+  const float per_s = moving ? 1 / frame.dt_s : 0;
+  const Floats d_x = Floats{} + frame.displacement_m[0] * per_s;
+  const Floats d_y = Floats{} + frame.displacement_m[1] * per_s;
+  const Floats d_z = Floats{} + frame.displacement_m[2] * per_s;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Floats x = load(tracks[kPlaceX] + i), y = load(tracks[kPlaceY] + i);
+    const Ints moves = load(tracks[kBelief] + i) > 0.0F;
+    const Places flow = parallax_of(frame, x, y, d_x, d_y, d_z);
+    const Floats v_x = moves ? load(tracks[kVelocityX] + i) : flow.x;
+    const Floats v_y = moves ? load(tracks[kVelocityY] + i) : flow.y;
+    const Floats length = root_of(v_x * v_x + v_y * v_y);
+    store(moves ? length : load(tracks[kInverseDepth_pm] + i) * length, speed_pxps + i);
+    const Ints rests = ~moves & (length <= 1e-9F);
+    const Floats to_x = rests ? x - frame.centre_x_px : v_x;
+    const Floats to_y = rests ? y - frame.centre_y_px : v_y;
+    const Floats angle = angle_of(to_x, to_y < 0.0F ? -to_y : to_y);
+    store(to_y < 0.0F ? -angle : angle, angle_rad + i);
+  }
+}
+
 void off_segment(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
                  std::size_t count, float* off2_px2) {
   const float* const d = frame.displacement_m;
@@ -717,7 +739,7 @@ Agreement agree(const double* const* misses, std::size_t count) {
   return {total(left), total(stood), total(all)};
 }
 
-constexpr TrackLoops kTrackLoops = {rotate, predict, expect,      densities,   misses,
-                                    see,    show,    off_segment, normal_sums, agree};
+constexpr TrackLoops kTrackLoops = {rotate, predict,      expect,      densities,   misses, see,
+                                    show,   image_motion, off_segment, normal_sums, agree};
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter/edges/edge.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/paper/estimate.h"
 #include "filter/vectors/refill.h"
@@ -13,6 +12,22 @@ namespace {
 
 /// Below this displacement of the reference point a frame gives no depth of an edge.
 constexpr double kLeastDisplacement_px = 0.2;
+
+/// Deletes edges with trust below the critical rank, and edges outside of the picture.
+void delete_lost(std::vector<Edge>& edges, const Intrinsics& camera, const TrustRanks& trust) {
+  const Pixels picture{camera.width_px, camera.height_px};
+  std::erase_if(edges, [&](const Edge& edge) {
+    return !trust.alive(edge.trust) || !picture.contain(edge.location);
+  });
+}
+
+/// Gives an edge the origin, speed and angle of a static point at its place and depth.
+void move_as_static(Edge& edge, const Intrinsics& camera, const MotionField& field) {
+  edge.origin = field.origin(edge.location);
+  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
+  const Vec2 along = field.direction(edge.location);
+  edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera.centre_px) : along);
+}
 
 }  // namespace
 

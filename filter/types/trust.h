@@ -22,10 +22,13 @@ struct TrustRanks {
   /// After an ignorance region, a layer is observed for two frames before it can make another.
   int after_ignoring() const { return std::max(maximum - 2, critical); }
 
-  /// From critical to maximum, by the certainty of a decision with these log odds.
-  int of_certainty(double log_odds) const {
-    const double sure = std::abs(std::tanh(0.5 * log_odds));
-    return critical + static_cast<int>(std::lround(sure * (maximum - critical)));
+  /// From critical to maximum, by the certainty of a decision, from 0 to 1.
+  int of_certainty(double sure) const {
+    return critical + static_cast<int>(sure * (maximum - critical) + 0.5);
+  }
+  /// The same by its log odds.
+  int of_log_odds(double log_odds) const {
+    return of_certainty(std::abs(std::tanh(0.5 * log_odds)));
   }
 
   int raised(int trust) const { return std::min(trust + 1, maximum); }
