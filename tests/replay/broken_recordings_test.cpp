@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <regex>
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
@@ -191,6 +192,21 @@ TEST_F(BrokenRecording, APipeAmongThePicturesIsSkippedAndNamed) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find(picture(2) + ": this is a pipe"), std::string::npos) << result.err;
   EXPECT_EQ(recording().frames.size(), 7u);
+}
+
+TEST_F(BrokenRecording, EachTableHasTheRateOfItsOwnSensor) {
+  fs::remove(sequence() / "lcs.json");
+  const std::string whole = replay().err;
+  EXPECT_EQ(whole.find("rows a second"), std::string::npos) << whole;
+  for (const char* sensor : {"imu0", "odometry0"}) {
+    const fs::path file = sequence() / "mav0" / sensor / "sensor.yaml";
+    const std::string right = read(file);
+    write(file, std::regex_replace(right, std::regex("rate_hz: [0-9.]+"), "rate_hz: 77"));
+    const std::string told = replay().err,
+                      said = fmt::format("{}/sensor.yaml states 77 Hz", sensor);
+    EXPECT_NE(told.find(said), std::string::npos) << told;
+    write(file, right);
+  }
 }
 
 TEST_F(BrokenRecording, OdometryWithoutAReadingIsToldWhereItIsNotNeeded) {

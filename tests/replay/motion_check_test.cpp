@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -73,8 +74,12 @@ class MotionWatched : public testing::Test {
     std::string poses;
     for (int k = 0; k < kFrames; ++k) poses += write(k);
     test::write(home() / "poses.txt", poses);
+    return told_by("poses: poses.txt");
+  }
+  /// As above, of a motion by a key of `recording`.
+  std::string told_by(const std::string& motion) const {
     test::write(home() / "drive.yaml",
-                "recording: {path: pictures, fps: 10, poses: poses.txt, focal: 250}\n");
+                fmt::format("recording: {{path: pictures, fps: 10, {}, focal: 250}}\n", motion));
     std::string all;
     const std::string refused = test::refusal_of<input::Error>([&] {
       Playback playback(scenario::load(home() / "drive.yaml"));
@@ -135,13 +140,64 @@ TEST_F(MotionWatched, InOtherAxesIsRefusedWithTheirNames) {
   }
 }
 
-TEST_F(MotionWatched, InLeftHandedAxesIsRefused) {
+TEST_F(MotionWatched, InLeftHandedAxesIsRefusedInEachFrameThatTheyFitWorse) {
   draw(right_view);
-  const Matrix3d mirror = Vector3d(1, -1, 1).asDiagonal();
-  const std::string all = told([&](int k) {
-    return tum(k, {mirror * pose(k).R * mirror, mirror * pose(k).p});
+  for (const auto& [mirrored, said] : {std::pair(Vector3d(1, -1, 1), "x right, y up, z ahead"),
+                                       std::pair(Vector3d(-1, 1, 1), "x left, y down, z ahead")}) {
+    const Matrix3d mirror = mirrored.asDiagonal();
+    const std::string all = told([&](int k) {
+      return tum(k, {mirror * pose(k).R * mirror, mirror * pose(k).p});
+    });
+    EXPECT_TOLD(all, "left-handed");
+    EXPECT_TOLD(all, said);
+    int wrong = 0, frames = 0;
+    const std::size_t at = std::min(all.find("contradict"), all.size());
+    EXPECT_EQ(std::sscanf(all.c_str() + at, "contradict its motion in %d of %d", &wrong, &frames),
+              2)
+        << all;
+    EXPECT_GT(2 * wrong, frames);
+    EXPECT_EQ(frames, kFrames - 1);
+  }
+}
+
+TEST_F(MotionWatched, OfASlowCameraIsJudgedByAllItsFrames) {
+  constexpr double kSlow = 0.04;
+  draw([](int k) { return view(pose(kSlow * k)); });
+  const std::string right = told([](int k) { return tum(k, pose(kSlow * k)); });
+  EXPECT_TOLD(right, "24 frames");
+  EXPECT_UNTOLD(right, "contradict");
+  EXPECT_TOLD(told([](int k) {
+                const sim::Pose T = pose(kSlow * k);
+                return tum(k, {T.R, -T.p});
+              }),
+              "contradict its motion in 2");
+}
+
+TEST_F(MotionWatched, OfAFewPicturesIsJudged) {
+  draw(right_view);
+  const auto few = [](int k, const sim::Pose& T) { return k < 6 ? tum(k, T) : std::string(); };
+  EXPECT_UNTOLD(told([&](int k) { return few(k, pose(k)); }), "contradict");
+  EXPECT_TOLD(told([&](int k) { return few(k, pose(k).inverse()); }), "give their inverse");
+}
+
+TEST_F(MotionWatched, BySpeedAloneIsJudgedByAnyTurn) {
+  const auto ahead = [](int k) { return sim::Pose{pose(k).R, {0, 0, 0.2 * k}}; };
+  // it looks along its way as far as it can be told without its turns
+  draw([&](int k) { return view({Matrix3d::Identity(), ahead(k).p}); });
+  EXPECT_UNTOLD(told_by("speed: 2"), "contradict");
+  EXPECT_TOLD(told_by("speed: -2"), "the camera moves backwards");
+  EXPECT_TOLD(told_by("speed: 0"), "the camera moves ahead: give its speed");
+  draw([&](int k) { return view({ahead(k).R, Vector3d::Zero()}); });
+  EXPECT_UNTOLD(told_by("speed: 0"), "contradict");
+}
+
+TEST_F(MotionWatched, ThatIsWrongForAThirdOfTheTimeIsToldWithItsShare) {
+  draw(right_view);
+  const std::string all = told([](int k) {
+    return tum(k, {pose(k < 16 ? k : 32 - k).R, pose(k).p});
   });
-  EXPECT_TOLD(all, "left-handed");
+  EXPECT_TOLD(all, "24 frames");
+  EXPECT_TOLD(all, "the pictures contradict the motion in 7 of 23 frames");
 }
 
 TEST_F(MotionWatched, AsTheInverseOrWithWFirstIsRefused) {

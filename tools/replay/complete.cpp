@@ -214,9 +214,9 @@ void move_by_imu(const scenario::RecordingSource& asked, Recorded& recorded) {
   const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
   readings.imu = read_imu_csv(*asked.imu, of_imu, recorded.tally);
   if (asked.odometry) {
-    constexpr double kSlowest_hz = 1, kFastest_hz = 990;
     readings.odometry = read_odometry_csv(
-        *asked.odometry, {asked.time_unit, {kSlowest_hz, kFastest_hz, {}}, kNanosecond_ns},
+        *asked.odometry,
+        {asked.time_unit, {kSlowestState_hz, kFastestState_hz, {}}, kNanosecond_ns},
         recorded.tally);
   }
   move_by_readings(asked, *asked.imu, std::move(readings), recorded);

@@ -194,12 +194,12 @@ std::string choose_camera(const scenario::RecordingSource& asked, sequence::Repl
 
 std::vector<TrueState> read_truth(const fs::path& mav, const scenario::RecordingSource& asked,
                                   Tally& tally) {
-  constexpr double kSlowest_hz = 1, kFastest_hz = 990;
   for (const char* name : {kTruthFolder, kMotionCapture}) {
     const fs::path file = mav / name / "data.csv";
     if (!fs::exists(file)) continue;
     const SensorCalibration calibration = calibration_in(mav / name);
-    const TableTimes times = times_of(mav / name, calibration, asked, kSlowest_hz, kFastest_hz);
+    const TableTimes times =
+        times_of(mav / name, calibration, asked, kSlowestState_hz, kFastestState_hz);
     return name == kTruthFolder ? read_truth_csv(file, times, tally)
                                 : read_body_poses_csv(file, times, tally);
   }
@@ -273,9 +273,12 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   calibration.T_WB_start.R = start.state.q_WB.toRotationMatrix();
   calibration.v_WB_start_mps = start.state.v_WB_mps;
   if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
-    readings.odometry = read_odometry_csv(file, times, recorded.tally);
+    const SensorCalibration wheels = calibration_in(mav / "odometry0");
+    readings.odometry = read_odometry_csv(
+        file, times_of(mav / "odometry0", wheels, asked, kSlowestState_hz, kFastestState_hz),
+        recorded.tally);
     recorded.took.insert("topics.odometry");
-    const sim::Pose T_BO = calibration_in(mav / "odometry0").T_BS.value_or(sim::Pose{});
+    const sim::Pose T_BO = wheels.T_BS.value_or(sim::Pose{});
     for (sim::OdometrySample& sample : readings.odometry) {
       sample.velocity_mps = T_BO.R * sample.velocity_mps;
     }

@@ -41,6 +41,14 @@ EgoMotion SteadyMotion::at(std::int64_t t_ns) {
   return motion;
 }
 
+std::vector<MotionSource::Reading> SteadyMotion::other_readings() const {
+  std::vector<Reading> all;
+  all.push_back({speed_mps_ == 0 ? "the camera moves ahead: give its speed"
+                                 : "the camera moves backwards: give the speed the other sign",
+                 std::make_unique<SteadyMotion>(speed_mps_ == 0 ? 1 : -speed_mps_, std::nullopt)});
+  return all;
+}
+
 void begin_at(std::int64_t t_ns, SensorReadings& readings) {
   const auto begin = [&](auto& samples) {
     std::erase_if(samples, [&](const auto& sample) { return sample.t_ns < t_ns; });

@@ -66,6 +66,8 @@ class SteadyMotion : public MotionSource {
   SteadyMotion(double speed_mps, const std::optional<Vector3d>& mount_rpy_rad);
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override { return up_C_; }
+  /// Of the other sign, or of a camera that does not stand.
+  std::vector<Reading> other_readings() const override;
 
  private:
   double speed_mps_;

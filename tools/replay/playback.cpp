@@ -215,6 +215,7 @@ bool Playback::next(recording::FrameRecord& frame, cv::Mat3b& image) {
     if (motion_check_.is_due()) require_right_motion();
     return true;
   }
+  motion_check_.finish(*rectifier_);
   require_right_motion();
   return false;
 }

@@ -49,6 +49,8 @@ struct ExpectedRate {
 };
 inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
 inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
+/// Of wheels, and of truths.
+inline constexpr double kSlowestState_hz = 1, kFastestState_hz = 990;
 
 /// The unit of a table's times, as far as it is known before the table is read.
 struct TableTimes {
