@@ -113,48 +113,27 @@ std::vector<MotionSource::Reading> SensorMotion::other_readings() const {
   return all;
 }
 
-NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
-    : states_(std::move(states)), T_BC_(T_BC) {
-  if (states_.size() < 2) {
-    throw std::runtime_error(
-        "there are fewer than two states of navigation to tell a motion from; give a table of them "
-        "that covers the pictures");
+std::vector<PosesMotion::CameraPose> poses_along(const std::vector<NavigationState>& states,
+                                                 const std::vector<std::int64_t>& frames_ns,
+                                                 const sim::Pose& T_BC) {
+  std::vector<NavigationState> all = states;
+  for (const std::int64_t t_ns : frames_ns) {
+    const auto [a, b, share] = around(t_ns, states);
+    all.push_back(
+        {t_ns, a.q_WB.slerp(share, b.q_WB), (1 - share) * a.v_WB_mps + share * b.v_WB_mps});
   }
-}
-
-NavigationState NavigationMotion::state_at(std::int64_t t_ns) const {
-  const auto [a, b, share] = around(t_ns, states_);
-  return {t_ns, a.q_WB.slerp(share, b.q_WB), (1 - share) * a.v_WB_mps + share * b.v_WB_mps};
-}
-
-EgoMotion NavigationMotion::at(std::int64_t t_ns) {
-  const NavigationState now = state_at(t_ns);
-  EgoMotion motion;
-  if (last_) {
-    // The velocity is linear between consecutive states.
-    Vector3d moved_m = Vector3d::Zero();
-    NavigationState from = *last_;
-    const auto add_until = [&](const NavigationState& to) {
-      moved_m +=
-          0.5 * static_cast<double>(to.t_ns - from.t_ns) * 1e-9 * (from.v_WB_mps + to.v_WB_mps);
-      from = to;
-    };
-    for (auto state = std::ranges::upper_bound(states_, last_->t_ns, {}, &NavigationState::t_ns);
-         state != states_.end() && state->t_ns < t_ns; ++state) {
-      add_until(*state);
+  std::ranges::stable_sort(all, {}, &NavigationState::t_ns);
+  std::vector<PosesMotion::CameraPose> poses;
+  Vector3d p_WB_m = Vector3d::Zero();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) {
+      const double dt_s = static_cast<double>(all[i].t_ns - all[i - 1].t_ns) * 1e-9;
+      if (dt_s <= 0) continue;
+      p_WB_m += 0.5 * dt_s * (all[i - 1].v_WB_mps + all[i].v_WB_mps);
     }
-    add_until(now);
-    const sim::Pose before = sim::Pose{last_->q_WB.toRotationMatrix(), Vector3d::Zero()} * T_BC_;
-    const sim::Pose after = sim::Pose{now.q_WB.toRotationMatrix(), moved_m} * T_BC_;
-    motion = bench::motion_between(before, after, static_cast<double>(t_ns - last_->t_ns) * 1e-9);
+    poses.push_back({all[i].t_ns, sim::Pose{all[i].q_WB.toRotationMatrix(), p_WB_m} * T_BC});
   }
-  last_ = now;
-  return motion;
-}
-
-std::optional<Vector3d> NavigationMotion::up_C() const {
-  if (!last_) return std::nullopt;
-  return (last_->q_WB.toRotationMatrix() * T_BC_.R).row(2);
+  return poses;
 }
 
 std::vector<MotionSource::Reading> MotionSource::other_readings() const {
@@ -163,6 +142,7 @@ std::vector<MotionSource::Reading> MotionSource::other_readings() const {
 
 std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
   std::vector<Reading> all;
+  if (!may_be_misread_) return all;
   const auto add = [&](const char* remedy, const auto& read) {
     std::vector<CameraPose> poses = poses_;
     for (CameraPose& pose : poses) pose.T_WC = read(pose.T_WC);
@@ -184,8 +164,9 @@ std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
   return all;
 }
 
-PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W)
-    : poses_(std::move(poses)), up_W_(up_W) {}
+PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W,
+                         bool may_be_misread)
+    : poses_(std::move(poses)), up_W_(up_W), may_be_misread_(may_be_misread) {}
 
 sim::Pose PosesMotion::pose_at(std::int64_t t_ns) const {
   const auto [a, b, share] = around(t_ns, poses_);

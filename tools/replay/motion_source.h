@@ -122,23 +122,6 @@ struct NavigationState {
   Vector3d v_WB_mps = Vector3d::Zero();
 };
 
-/// Attitude differences and integrated velocity; linear between two states.
-class NavigationMotion : public MotionSource {
- public:
-  /// \param states by time, at least two.
-  NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC);
-  /// Before the first and after the last state, that state is held.
-  EgoMotion at(std::int64_t t_ns) override;
-  std::optional<Vector3d> up_C() const override;
-
- private:
-  NavigationState state_at(std::int64_t t_ns) const;
-
-  std::vector<NavigationState> states_;
-  sim::Pose T_BC_;
-  std::optional<NavigationState> last_;
-};
-
 /// Differences of camera poses; linear between two poses.
 class PosesMotion : public MotionSource {
  public:
@@ -146,7 +129,9 @@ class PosesMotion : public MotionSource {
 
   /// \param poses by time, without duplicate times, at least one.
   /// \param up_W up (against gravity) in the poses' world frame, if known.
-  PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W);
+  /// \param may_be_misread others write such poses by other conventions.
+  PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W,
+              bool may_be_misread = true);
   /// Before the first and after the last pose, that pose is held.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override;
@@ -158,7 +143,14 @@ class PosesMotion : public MotionSource {
 
   std::vector<CameraPose> poses_;
   std::optional<Vector3d> up_W_;
+  bool may_be_misread_;
   std::optional<CameraPose> last_;
 };
+
+/// The camera's poses at the times of states and of frames, with z up. Between two states
+/// velocities are linear. \param states by time, at least one. \param frames_ns within their time.
+std::vector<PosesMotion::CameraPose> poses_along(const std::vector<NavigationState>& states,
+                                                 const std::vector<std::int64_t>& frames_ns,
+                                                 const sim::Pose& T_BC);
 
 }  // namespace lcs::replay

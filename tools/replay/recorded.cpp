@@ -267,11 +267,16 @@ void keep_within(const ReadingTimes& readings, Recorded& recorded) {
 void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
                         Recorded& recorded) {
   sort_by_time(states, "states of the navigation", "the navigation's", recorded.tally);
-  std::vector<std::int64_t> times_ns = stamps_of(states);
-  recorded.motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
-  keep_within({std::move(times_ns), "states of the navigation",
+  if (states.size() < 2) {
+    throw std::runtime_error(
+        "there are fewer than two states of navigation to tell a motion from; give a table of them "
+        "that covers the pictures");
+  }
+  keep_within({stamps_of(states), "states of the navigation",
                "pictures are outside of the navigation's time and are left out"},
               recorded);
+  recorded.motion = std::make_unique<PosesMotion>(
+      poses_along(states, stamps_of(recorded.frames), T_BC), Vector3d::UnitZ(), false);
 }
 
 }  // namespace lcs::replay
