@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -91,6 +92,19 @@ TEST_F(StartOfPictures, IsUprightAfterABumpAtTheFirstReading) {
     if (motion.dt_s > 0) {
       EXPECT_NEAR(motion.v_C_mps.z(), 2, 0.05);
     }
+  }
+}
+
+TEST_F(StartOfPictures, IsUprightAfterReadingsOfNoSensor) {
+  for (const double size : {1e3, 1e200, 1e306}) {
+    std::vector<sim::ImuSample> samples = readings(0, 0);
+    samples[0].accel_mps2.x() = samples[2].gyro_radps.y() = samples[4].gyro_radps.y() = size * 100;
+    const Recorded recorded = read(samples, ", camera_height: 1.5 m");
+    EXPECT_LT((recorded.motion->up_C().value() + Vector3d::UnitY()).norm(), 1e-9) << size;
+    const std::vector<std::string> told = recorded.tally.lines();
+    EXPECT_TRUE(std::ranges::any_of(told, [](const std::string& line) {
+      return line.starts_with("3 readings are beyond those of any IMU");
+    })) << size;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -152,13 +153,44 @@ Beginning beginning_of(std::span<const sim::ImuSample> readings) {
   return {middle_mean(forces_mps2), middle_mean(rates_radps), static_cast<int>(rates_radps.size())};
 }
 
-void tell_rest(const Rest& rest, Tally& tally) {
-  const std::string until =
-      fmt::format("of {:.2f} s", 1e-9 * static_cast<double>(rest.until_ns - rest.from_ns));
-  tally.add("times at rest at the start give the IMU's biases and what is upright", until);
-  if (rest.moved) {
-    tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
+TrueState start_of(std::span<const sim::ImuSample> readings, const scenario::RecordingSource& asked,
+                   const Eigen::Matrix3d& R_BC, double gravity_mps2, bool is_upright,
+                   Tally& tally) {
+  if (readings.empty()) {
+    throw std::runtime_error(
+        "the IMU has no reading from the first picture on; give both the times of one clock");
   }
+  const double speed_mps = asked.speed_mps.value_or(0);
+  // A speed rules out a rest that nobody states.
+  const auto rest = speed_mps != 0 && !asked.at_rest_s
+                        ? std::nullopt
+                        : rest_at_start(readings, asked.at_rest_s, gravity_mps2);
+  TrueState start;
+  start.t_ns = readings.front().t_ns;
+  if (rest) {
+    const std::string until =
+        fmt::format("of {:.2f} s", 1e-9 * static_cast<double>(rest->until_ns - rest->from_ns));
+    tally.add("times at rest at the start give the IMU's biases and what is upright", until);
+    if (rest->moved) {
+      tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
+    }
+    start.state.q_WB = rest->q_WS;
+    start.gyro_bias_radps = rest->gyro_bias_radps;
+    start.accel_bias_mps2 = rest->accel_bias_mps2;
+  } else if (!is_upright) {
+    const Beginning beginning = beginning_of(readings);
+    const bool is_at_rest = speed_mps == 0 && beginning.is_still();
+    tally.add(
+        is_at_rest
+            ? "recordings have no truth to start from: at rest, upright as the accelerometer says"
+            : "recordings start while they move: upright as the accelerometer says, and the "
+              "gyroscope's bias counts as 0",
+        fmt::format("{} readings", beginning.count));
+    start.state.q_WB = sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized();
+    if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
+  }
+  start.state.v_WB_mps = speed_mps * (start.state.q_WB.toRotationMatrix() * R_BC.col(2));
+  return start;
 }
 
 }  // namespace lcs::replay

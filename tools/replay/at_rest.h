@@ -42,7 +42,24 @@ struct Beginning {
 /// \param readings by time, from the start on; at least one.
 Beginning beginning_of(std::span<const sim::ImuSample> readings);
 
-/// Reports the rest that was found, and a contradiction with the given duration.
-void tell_rest(const Rest& rest, Tally& tally);
+/// State of the body, with the biases of its IMU.
+struct TrueState {
+  std::int64_t t_ns = 0;
+  NavigationState state;
+  Vector3d gyro_bias_radps = Vector3d::Zero();
+  Vector3d accel_bias_mps2 = Vector3d::Zero();
+};
+
+/// The start at the first reading, and what is told of it: upright by the accelerometer, at rest
+/// for the given or detected time, else at the given speed along the optical axis. \param readings
+/// by time, at least one. \param is_upright the body's z is up unless a rest says
+///   more exactly where up is.
+TrueState start_of(std::span<const sim::ImuSample> readings, const scenario::RecordingSource& asked,
+                   const Eigen::Matrix3d& R_BC, double gravity_mps2, bool is_upright, Tally& tally);
+
+/// Sets the motion by dead reckoning from the start on, without its biases.
+/// \param calibration without the start. \param readings from its time on, which is 0.
+void move_from(const TrueState& start, sim::Calibration calibration, SensorReadings readings,
+               Recorded& recorded);
 
 }  // namespace lcs::replay

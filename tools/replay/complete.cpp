@@ -120,21 +120,6 @@ void join_camera(const scenario::RecordingSource& asked, PosesFile& file, Record
   }
 }
 
-/// Removes biases and tilt by a given or detected time at rest. A non-zero start speed rules out an
-/// undeclared one.
-void calibrate_at_rest(const scenario::RecordingSource& asked, SensorReadings& readings,
-                       sim::Calibration& calibration, Tally& tally) {
-  if (!asked.at_rest_s && asked.speed_mps.value_or(0) != 0) return;
-  const auto rest = rest_at_start(readings.imu, asked.at_rest_s, calibration.gravity_mps2);
-  if (!rest) return;
-  for (sim::ImuSample& sample : readings.imu) {
-    sample.gyro_radps -= rest->gyro_bias_radps;
-    sample.accel_mps2 -= rest->accel_bias_mps2;
-  }
-  calibration.T_WB_start.R = rest->q_WS.toRotationMatrix();
-  tell_rest(*rest, tally);
-}
-
 /// Refuses a ground that would be above the picture or behind the camera.
 void require_ground_in_view(const scenario::RecordingSource& asked, const Recorded& recorded) {
   constexpr double kAbove = 0.2, kBehind = 0.8;  // of up, along y and z of the camera
@@ -453,7 +438,6 @@ void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<
 
 void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
                       SensorReadings readings, Recorded& recorded) {
-  recorded.settings.odometry.enabled = !readings.odometry.empty();
   take_imu_noise(asked, recorded);
   take_time_offset(asked, recorded);
   // Pictures without a clock begin at the first reading.
@@ -472,18 +456,27 @@ void move_by_readings(const scenario::RecordingSource& asked, const fs::path& fi
   const auto T_BC = asked.calibration ? camera_on_body(asked, {}, recorded) : std::nullopt;
   calibration.T_BC.R =
       T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
-  if (T_BC && !asked.mount_rpy_rad) {
-    calibration.T_BC.p = T_BC->p;
-    calibration.T_WB_start.R =
-        sim::least_rotation(beginning_of(readings.imu).up_S_mps2, Vector3d::UnitZ())
-            .toRotationMatrix();
-  } else {
+  const bool is_vehicle = !T_BC || asked.mount_rpy_rad;
+  if (is_vehicle) {
     require_vehicle_axes(readings.imu, file);
+  } else {
+    calibration.T_BC.p = T_BC->p;
   }
-  calibrate_at_rest(asked, readings, calibration, recorded.tally);
   recorded.took.insert({"at_rest", "mount"});
-  calibration.v_WB_start_mps =
-      asked.speed_mps.value_or(0) * (calibration.T_WB_start.R * calibration.T_BC.R.col(2)).eval();
+  const TrueState start = start_of(readings.imu, asked, calibration.T_BC.R,
+                                   calibration.gravity_mps2, is_vehicle, recorded.tally);
+  move_from(start, calibration, std::move(readings), recorded);
+}
+
+void move_from(const TrueState& start, sim::Calibration calibration, SensorReadings readings,
+               Recorded& recorded) {
+  for (sim::ImuSample& sample : readings.imu) {
+    sample.gyro_radps -= start.gyro_bias_radps;
+    sample.accel_mps2 -= start.accel_bias_mps2;
+  }
+  calibration.T_WB_start.R = start.state.q_WB.toRotationMatrix();
+  calibration.v_WB_start_mps = start.state.v_WB_mps;
+  recorded.settings.odometry.enabled = !readings.odometry.empty();
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }

@@ -51,43 +51,6 @@ void read_frames(const fs::path& camera, const TableTimes& times, Recorded& reco
   take_list(table, times.unit_ns(table, 0, recorded.tally), picture, recorded);
 }
 
-/// A start upright according to the accelerometer: at rest for the given or detected time, else at
-/// the given speed along the optical axis.
-TrueState start_by_readings(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
-                            const Eigen::Matrix3d& R_BC, const scenario::RecordingSource& asked,
-                            Tally& tally) {
-  const auto first = std::ranges::lower_bound(imu, t_ns, {}, &sim::ImuSample::t_ns);
-  const double speed_mps = asked.speed_mps.value_or(0);
-  const auto rest = speed_mps != 0 && !asked.at_rest_s
-                        ? std::nullopt
-                        : rest_at_start({first, imu.end()}, asked.at_rest_s, kGravity_mps2);
-  TrueState start;
-  start.t_ns = t_ns;
-  if (rest) {
-    tell_rest(*rest, tally);
-    start.state.q_WB = rest->q_WS;
-    start.gyro_bias_radps = rest->gyro_bias_radps;
-    start.accel_bias_mps2 = rest->accel_bias_mps2;
-  } else {
-    if (first == imu.end()) {
-      throw std::runtime_error(
-          "the IMU has no reading at the first picture; give both the times of one clock");
-    }
-    const Beginning beginning = beginning_of({first, imu.end()});
-    const bool is_at_rest = speed_mps == 0 && beginning.is_still();
-    tally.add(
-        is_at_rest
-            ? "recordings have no truth to start from: at rest, upright as the accelerometer says"
-            : "recordings start while they move: upright as the accelerometer says, and the "
-              "gyroscope's bias counts as 0",
-        fmt::format("{} readings", beginning.count));
-    start.state.q_WB = sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized();
-    if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
-  }
-  start.state.v_WB_mps = speed_mps * (start.state.q_WB.toRotationMatrix() * R_BC.col(2));
-  return start;
-}
-
 /// A generated sequence repeats `lcs.json` in each sensor.yaml for other readers. Throws if an edit
 /// made the two differ.
 void require_same(const fs::path& mav, const std::string& camera,
@@ -264,14 +227,12 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
                kBehindReadings_ns, first_ns},
               recorded);
   if (truth.empty()) recorded.took.insert("at_rest");
-  const auto known = std::ranges::lower_bound(truth, first_ns, {}, &TrueState::t_ns);
-  const TrueState start =
-      truth.empty() ? start_by_readings(readings.imu, first_ns, T_BC.R, asked, recorded.tally)
-      : known == truth.end() ? truth.back()
-                             : *known;
-  if (!truth.empty()) require_gravity_down(start, readings.imu, imu_file);
-  calibration.T_WB_start.R = start.state.q_WB.toRotationMatrix();
-  calibration.v_WB_start_mps = start.state.v_WB_mps;
+  TrueState start{first_ns, {}};
+  if (const auto known = std::ranges::lower_bound(truth, first_ns, {}, &TrueState::t_ns);
+      !truth.empty()) {
+    start = known == truth.end() ? truth.back() : *known;
+    require_gravity_down(start, readings.imu, imu_file);
+  }
   if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
     const SensorCalibration wheels = calibration_in(mav / "odometry0");
     readings.odometry = read_odometry_csv(
@@ -289,14 +250,11 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
 
   // Readings before the start are dropped; times count from it.
   begin_at(start.t_ns, readings);
-  for (sim::ImuSample& sample : readings.imu) {
-    sample.gyro_radps -= start.gyro_bias_radps;
-    sample.accel_mps2 -= start.accel_bias_mps2;
-  }
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start.t_ns;
-  recorded.settings.odometry.enabled = !readings.odometry.empty();
-  recorded.motion =
-      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
+  if (truth.empty()) {
+    start = start_of(readings.imu, asked, T_BC.R, kGravity_mps2, false, recorded.tally);
+  }
+  move_from(start, calibration, std::move(readings), recorded);
 }
 
 }  // namespace

@@ -127,6 +127,21 @@ ImuColumns find_columns(const TextTable& table, const TableTimes& times,
   return columns;
 }
 
+/// Removes single readings beyond the range of any sensor; where most are, another fault is told.
+void drop_impossible(std::vector<sim::ImuSample>& samples, const fs::path& file, Tally& tally) {
+  constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
+  const auto is_beyond = [](const sim::ImuSample& sample) {
+    return sample.gyro_radps.stableNorm() > kMostRate_radps ||
+           sample.accel_mps2.stableNorm() > kMostForce_mps2;
+  };
+  const auto first = std::ranges::find_if(samples, is_beyond);
+  const auto count = std::count_if(first, samples.end(), is_beyond);
+  if (count == 0 || 2 * count > std::ssize(samples)) return;
+  tally.add("readings are beyond those of any IMU and are left out",
+            fmt::format("{} at {} ns", file.string(), first->t_ns), static_cast<int>(count));
+  std::erase_if(samples, is_beyond);
+}
+
 /// Median angle, rad, by which the accelerometer's direction at the end of a second is off that at
 /// its start, turned by the gyroscope. \param factor of the angular rates.
 double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor) {
@@ -250,6 +265,7 @@ std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes&
     throw input::Error({file.string(), 0},
                        tally.before("holds no reading of an IMU; give a row for each"));
   }
+  drop_impossible(samples, file, tally);
   require_possible(samples, file);
   count_gaps(samples, tally);
   return samples;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/imu/imu.h"
+#include "tools/replay/at_rest.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
@@ -33,13 +34,6 @@ std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const T
 /// Exact poses of the camera, as written by `lcs generate`.
 std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tally& tally);
 
-/// State of the body, with the biases of its IMU.
-struct TrueState {
-  std::int64_t t_ns = 0;
-  NavigationState state;
-  Vector3d gyro_bias_radps = Vector3d::Zero();
-  Vector3d accel_bias_mps2 = Vector3d::Zero();
-};
 std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& times, Tally& tally);
 /// As above, from poses alone (columns of EuRoC up to q_RS_z): velocities are their differences,
 /// biases are 0; both is told.
