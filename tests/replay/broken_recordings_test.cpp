@@ -13,8 +13,8 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
+#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/sensor_csv.h"
 
 namespace lcs::replay {
 namespace {

@@ -1,6 +1,6 @@
 // Tables of an IMU and of times with the columns, separators and units of several tools, and
 // readings that no IMU can have.
-#include "tools/replay/sensor_csv.h"
+#include "tools/replay/motion_tables.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/poses_file.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -9,9 +9,8 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/replay/motion_tables.h"
 #include "tools/replay/picture_names.h"
-#include "tools/replay/poses_file.h"
-#include "tools/replay/sensor_csv.h"
 
 namespace lcs::replay {
 namespace {

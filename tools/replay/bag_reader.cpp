@@ -24,27 +24,17 @@ constexpr const char* kPosesFile = "poses.txt";
 constexpr input::FileKind kMessages{input::kMebibyte, "run it again"};
 
 /// A folder that is removed with all that is in it.
-class [[nodiscard]] TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "lcs-bag-XXXXXX").string();
-    if (!::mkdtemp(name.data())) {
-      throw std::system_error(errno, std::generic_category(), name + " cannot be made");
-    }
-    path_ = name;
+std::shared_ptr<const fs::path> temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "lcs-bag-XXXXXX").string();
+  if (!::mkdtemp(name.data())) {
+    throw std::system_error(errno, std::generic_category(), name + " cannot be made");
   }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+  return {new fs::path(name), [](const fs::path* path) {
+            std::error_code error;
+            fs::remove_all(*path, error);
+            delete path;
+          }};
+}
 
 /// Runs read_bag.py. \throws input::Error with its message if it fails.
 void run_reader(const std::vector<std::string>& arguments, int out, const input::Source& where) {
@@ -74,8 +64,8 @@ bool is_bag(const fs::path& path) {
 }
 
 Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
-  const auto folder = std::make_shared<TemporaryFolder>();
-  const fs::path made = folder->path() / "recording";
+  const auto folder = temporary_folder();
+  const fs::path made = *folder / "recording";
   const scenario::RecordingSource::Topics& topics = asked.topics;
   std::vector<std::string> arguments{fs::absolute(asked.path).string()};
   if (topics.image.empty()) {
@@ -114,7 +104,7 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
       return read;
     } catch (const input::Error& error) {
       std::string said = error.what();
-      if (!said.starts_with(folder->path().string())) throw;
+      if (!said.starts_with(folder->string())) throw;
       // People do not have that file, and a bag has no header that could state a unit.
       said.erase(0, said.find(": ") + 2);
       said.erase(std::min(said.size(), said.find(", or put their unit into the header")));

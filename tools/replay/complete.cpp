@@ -14,9 +14,8 @@
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
 #include "tools/replay/motion_source.h"
-#include "tools/replay/poses_file.h"
+#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/sensor_csv.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -64,13 +63,11 @@ void choose(const scenario::RecordingSource& asked, int most, std::vector<Record
 std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const PosesFile& file,
                                                    Recorded& recorded) {
   std::vector<PosesMotion::CameraPose> poses;
-  const auto rows = take_rows(path, file.lines.size(), "pose", recorded);
-  std::size_t next = 0;
-  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
-    const auto& line = file.lines[rows[next++]];
+  take_rows(path, file.lines.size(), "pose", recorded, [&](RecordedFrame& frame, std::size_t row) {
+    const auto& line = file.lines[row];
     if (line) frame.t_ns = line->t_ns.value_or(frame.t_ns);
     if (line) poses.push_back({frame.t_ns, line->T_WC});
-    return !line;
+    return line.has_value();
   });
   return poses;
 }

@@ -11,8 +11,8 @@
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
 #include "tools/replay/motion_source.h"
+#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/sensor_csv.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -163,8 +163,7 @@ std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recording
     const SensorCalibration calibration = calibration_in(mav / name);
     const TableTimes times =
         times_of(mav / name, calibration, asked, kSlowestState_hz, kFastestState_hz);
-    return name == kTruthFolder ? read_truth_csv(file, times, tally)
-                                : read_body_poses_csv(file, times, tally);
+    return read_truth_csv(file, times, name == kTruthFolder, tally);
   }
   return {};
 }

@@ -15,7 +15,7 @@
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/replay/motion_source.h"
-#include "tools/replay/poses_file.h"
+#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"
@@ -210,15 +210,14 @@ void take_frames(const fs::path& clock, const fs::path& data, Recorded& recorded
 
 void time_frames(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file);
-  const auto rows = take_rows(file, table.rows.size(), "time", recorded);
-  std::size_t next = 0;
-  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
-    const TextTable::Row& row = table.rows[rows[next++]];
-    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
-    if (!t_ns) recorded.tally.add("rows cannot be read and are left out", table.at(row));
+  const auto use = [&](RecordedFrame& frame, std::size_t row) {
+    const auto t_ns = time_in(table.rows[row].fields.front(), kSecond_ns);
+    if (!t_ns)
+      recorded.tally.add("rows cannot be read and are left out", table.at(table.rows[row]));
     frame.t_ns = t_ns.value_or(0);
-    return !t_ns;
-  });
+    return t_ns.has_value();
+  };
+  take_rows(file, table.rows.size(), "time", recorded, use);
   put_in_order(recorded.frames, file, recorded.tally);
 }
 

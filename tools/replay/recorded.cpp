@@ -187,6 +187,13 @@ std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, cons
   return found;
 }
 
+void take_rows(const fs::path& table, std::size_t rows, const char* what, Recorded& recorded,
+               const std::function<bool(RecordedFrame&, std::size_t)>& use) {
+  const std::vector<std::size_t> found = take_rows(table, rows, what, recorded);
+  auto row = found.begin();
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) { return !use(frame, *row++); });
+}
+
 void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file) {
   const PictureNumbers& all = recorded.numbers;
   if (!recorded.has_own_clock || all.before_ns == 0) return;

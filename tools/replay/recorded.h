@@ -185,7 +185,8 @@ struct Recorded {
   std::unique_ptr<MotionSource> motion;  ///< null: the layout has no motion of the camera
   std::vector<std::string> lacks;        ///< inputs that only the user can provide, and their keys
   Tally tally;
-  std::shared_ptr<void> keep = {};  ///< files that are read from, and removed with the recording
+  std::shared_ptr<const void> keep =
+      {};  ///< files that are read from, and removed with the recording
 };
 
 /// For recordings that no layout fits: ends the message that refuses one.
@@ -253,6 +254,10 @@ void number_frames(Recorded& recorded, bool are_times);
 /// \param what the rows state, as "time". \throws input::Error if there is no such number or row.
 std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, const char* what,
                                    Recorded& recorded);
+
+/// As above; leaves out frames whose row `use(frame, row)` does not take.
+void take_rows(const fs::path& table, std::size_t rows, const char* what, Recorded& recorded,
+               const std::function<bool(RecordedFrame&, std::size_t)>& use);
 
 /// Refuses pictures without times whose numbers begin above 1 if readings last long enough to begin
 /// with number 0. \param file of the readings.
