@@ -226,6 +226,9 @@ TEST_F(MotionWatched, LeavesOutPicturesInAGapOfPoses) {
       told([](int k) { return k > 6 && k < 15 ? std::string() : tum(k, pose(k)); });
   EXPECT_TOLD(all, "16 frames");
   EXPECT_TOLD(all, "8 pictures are in gaps of the poses");
+  EXPECT_TOLD(all,
+              "1 gaps are longer than four pictures, and the filter begins anew after them "
+              "(the first: 0.90 s before 015.png)");
 }
 
 TEST_F(MotionWatched, TakesPosesThatAreHeldForAGap) {

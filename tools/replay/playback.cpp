@@ -10,6 +10,7 @@
 #include "scenarios/input/message.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
+#include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -64,6 +65,8 @@ Playback::Playback(const scenario::Scenario& asked)
       truth_(asked.recording->nothing_moves ? recording::Truth::nothing_moves
              : recorded_.truth              ? recording::Truth::all
                                             : recording::Truth::unknown) {
+  constexpr double kPeriods = 4;
+  longest_s_ = kPeriods / usual_rate_hz(stamps_of(recorded_.frames)).value_or(1);
   take_settings();
   look_at_first_picture();
   require_events();
@@ -207,6 +210,12 @@ bool Playback::next(recording::FrameRecord& frame, cv::Mat3b& image) {
     frame.index = index_++;
     frame.t_ns = recorded.t_ns;
     frame.motion = recorded_.motion->at(recorded.t_ns);
+    if (frame.motion.dt_s > longest_s_) {
+      recorded_.tally.add(
+          "gaps are longer than four pictures, and the filter begins anew after them",
+          fmt::format("{:.2f} s before {}", frame.motion.dt_s, recorded.name()));
+      frame.motion = {};
+    }
     const auto height_m = scenario_.recording->camera_height_m;
     const auto up_C = recorded_.motion->up_C();
     if (height_m && up_C) frame.motion.ground = Ground{.up_C = *up_C, .height_m = *height_m};

@@ -62,6 +62,7 @@ class Playback : public bench::FrameSource {
   cv::Mat1b mask_;                ///< empty, or non-zero at ignored pixels
   std::size_t next_ = 0;          ///< of the recorded frames
   int index_ = 0;                 ///< of the next frame
+  double longest_s_ = 0;          ///< between frames of which the filter knows corners again
   std::size_t events_end_ = 0;    ///< of those that frames had so far
   std::span<const sim::Event> events_;
   bool grounded_ = false;  ///< the last frame has a ground
