@@ -74,6 +74,7 @@ KINDS = {
               "geometry_msgs/msg/TransformStamped", "nav_msgs/msg/Odometry", *TF),
     "odometry": ("nav_msgs/msg/Odometry",),
 }  # fmt: skip
+SENSORS = ("angular_velocity", "linear_acceleration")  # of an IMU
 # Encoding: number of channels, indices of red, green and blue (or grey), bytes of a channel.
 ENCODINGS = {
     "mono8": (1, [0], 1), "8UC1": (1, [0], 1), "mono16": (1, [0], 2), "16UC1": (1, [0], 2),
@@ -160,6 +161,16 @@ def require_ros2_profile(file: Path) -> None:
                           "give the .bag that it was made from, or " + NEUTRAL)  # fmt: skip
 
 
+def connections_of(reader: Any) -> list:
+    """Of an MCAP whose summary does not repeat its channels by a scan of the whole file."""
+    storage = getattr(reader, "storage", None)
+    if not reader.connections and hasattr(storage, "meta_scan"):
+        storage.meta_scan()
+        counts = storage.statistics.channel_message_counts
+        storage.connections = [c._replace(msgcount=counts.get(c.id, 0)) for c in storage.connections]
+    return reader.connections
+
+
 class Bag:
     """The messages of a bag. `told` has a line on each that is left out, and on all assumptions."""
 
@@ -175,9 +186,9 @@ class Bag:
         self._readers = [(Reader1 if self._is_ros1 else Reader2)(part) for part in parts]
         for reader in self._readers:
             reader.open()
-        self._connections = [c for reader in self._readers for c in reader.connections]
+        self._connections = [c for reader in self._readers for c in connections_of(reader)]
         if not self._connections and path.suffix == ".mcap":
-            raise Refusal("has no channels in its summary; 'mcap recover' writes a file with them")
+            raise Refusal("holds no channel, so that no message has a type; record it anew, or " + NEUTRAL)
         counts: dict[tuple[str, str], int] = {}
         for c in self._connections:
             counts[c.topic, c.msgtype] = counts.get((c.topic, c.msgtype), 0) + c.msgcount
@@ -339,13 +350,17 @@ class Series:
 
 
 def imu_row(message: Any) -> tuple:
-    """Angular rate in rad/s and acceleration in m/s^2, in the IMU's frame."""
-    for name in ("angular_velocity", "linear_acceleration"):
-        if getattr(message, f"{name}_covariance")[0] == -1:
-            raise Refusal(f"the IMU does not measure its {name}, whose covariance is -1; "
-                          "give another --imu-topic")  # fmt: skip
-    w, a = message.angular_velocity, message.linear_acceleration
-    return w.x, w.y, w.z, a.x, a.y, a.z
+    """Angular rate in rad/s and acceleration in m/s^2, in the IMU's frame; 0 for one that it lacks."""
+    rows = []
+    for name in SENSORS:
+        vector, covariance = getattr(message, name), getattr(message, f"{name}_covariance")
+        rows += [0.0] * 3 if covariance[0] == -1 else [vector.x, vector.y, vector.z]
+    return tuple(rows)
+
+
+def sensors_of(imu: Series) -> tuple[bool, bool]:
+    """Whether some reading has an angular rate, and an acceleration."""
+    return tuple(np.array(imu.rows).reshape(-1, 2, 3).any(axis=(0, 2)))
 
 
 def odometry_row(message: Any) -> tuple:
@@ -489,6 +504,7 @@ class Recording:
         self.odometry = Series(odometry, odometry_row) if odometry else None
         self.poses = Series(poses, pose_row) if poses and poses.type not in TF else None
         self.has_tf_poses = bool(poses and not self.poses)
+        self.sensors: tuple[Series, Series] | None = None  # in two topics: gyroscope, accelerometer
 
     def write(self) -> None:
         (self.camera / "data").mkdir(parents=True)
@@ -497,6 +513,8 @@ class Recording:
         if self.lens and not self.pictures.frame:
             self.pictures.frame = self.lens.frame
         frames = Frames(self.bag, self._takes_stamps(every), keeps_all=self.has_tf_poses)
+        if self.sensors:
+            self._join_sensors(frames)
         self._write_camera(frames)
         self._write_rows("imu", self.imu, identity())
         if self.odometry:
@@ -518,16 +536,43 @@ class Recording:
             if not series.rows:
                 raise Refusal(f"no message of {series.topic.name} can be read ({why}); "
                               "give another topic")  # fmt: skip
-        if self.imu:
-            self._require_both_sensors(np.array(self.imu.rows))
+        if self.imu and (other := self._other_sensor()):
+            every.append(other)
 
-    def _require_both_sensors(self, rows: np.ndarray) -> None:
-        """Refuses an IMU whose gyroscope and accelerometer have a topic each."""
-        for part, name in ((rows[:, :3], "angular velocity"), (rows[:, 3:], "acceleration")):
-            others = [topic for topic in found(self.bag, "imu") if topic != self.imu.topic]
-            if others and not part.any():
-                raise Refusal(f"{self.imu.topic.name} has no {name}, which may be in {names_of(others)}; record "
-                              "both in one topic (realsense: unite_imu_method:=2), or " + NEUTRAL)  # fmt: skip
+    def _other_sensor(self) -> Series | None:
+        """The only other topic of an IMU that has the sensor which this one lacks, and no more."""
+        has = sensors_of(self.imu)
+        if all(has):
+            return None
+        others = [topic for topic in found(self.bag, "imu") if topic != self.imu.topic]
+        series = [Series(topic, imu_row) for topic in others]
+        self.bag.read([(one.topic, one.read) for one in series])
+        fit = [one for one in series if one.rows and sensors_of(one) == (not has[0], not has[1])]
+        if len(fit) != 1 or not any(has):
+            raise Refusal(f"{self.imu.topic.name} has no {SENSORS[has.index(False)].replace('_', ' ')}, and "
+                          f"not just one other topic has it alone ({names_of(others)}); record both in one "
+                          "topic (realsense: unite_imu_method:=2), or " + NEUTRAL)  # fmt: skip
+        self.sensors = (self.imu, fit[0]) if has[0] else (fit[0], self.imu)
+        return fit[0]
+
+    def _join_sensors(self, frames: Frames) -> None:
+        """Takes the accelerometer's readings, linear between two, at the times of the gyroscope."""
+        gyro, accel = self.sensors
+        T_GA = identity() if gyro.frame == accel.frame else frames.rigid(gyro.frame, accel.frame)
+        if T_GA is None:
+            raise Refusal(f"no fixed transform of tf links the frames {gyro.frame!r} of {gyro.topic.name} and "
+                          f"{accel.frame!r} of {accel.topic.name}; " + NEUTRAL)  # fmt: skip
+        times, first = np.unique(accel.times, return_index=True)
+        forces = T_GA.turned(np.array(accel.rows)[first, 3:])
+        kept = [i for i, t in enumerate(gyro.times) if times[0] <= t <= times[-1]]
+        if not kept:
+            raise Refusal(f"{gyro.topic.name} and {accel.topic.name} have no common time; " + NEUTRAL)
+        at = np.array(gyro.times)[kept] - times[0]
+        joined = [np.interp(at, times - times[0], force) for force in forces.T]
+        self.imu = gyro
+        gyro.rows = [(*gyro.rows[i][:3], *map(float, force)) for i, force in zip(kept, zip(*joined))]
+        gyro.times = [gyro.times[i] for i in kept]
+        self.bag.tell(f"the accelerations of {accel.topic.name} are interpolated to the times of {gyro.topic.name}")
 
     def _takes_stamps(self, every: list[Series]) -> bool:
         """Takes all times from the headers, or if some are of no use from the receiver's clock.

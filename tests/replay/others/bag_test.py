@@ -75,8 +75,8 @@ class Maker:
         self.add(topic, "sensor_msgs/CameraInfo", t, "cam_optical", width=6, height=4,
                  distortion_model=model, **numbers)  # fmt: skip
 
-    def imu(self, t, values=IMU[0], gyro=0.0, topic="/imu"):
-        self.add(topic, "sensor_msgs/Imu", t, "imu", angular_velocity=xyz(values[:3]),
+    def imu(self, t, values=IMU[0], gyro=0.0, topic="/imu", frame="imu"):
+        self.add(topic, "sensor_msgs/Imu", t, frame, angular_velocity=xyz(values[:3]),
                  linear_acceleration=xyz(values[3:]),
                  angular_velocity_covariance=np.array([gyro] + [0.0] * 8))  # fmt: skip
 
@@ -282,18 +282,69 @@ class Bags(unittest.TestCase):
         path = self.bag("bag", *(lambda m, s=s: m.image(s[1], at=s[0]) for s in sent))
         self.assertIn("fall back", self.converted(path)[2])
 
-    def test_an_imu_in_two_topics_is_refused(self):
+    def two_topics(self, *more, frame="imu", offset=0):
         def fill(m):
             for i in range(9):
-                m.image(T0 + i)
-                m.imu(T0 + i, (0.1, 0, 0, 0, 0, 0), topic="/gyro")
-                m.imu(T0 + i, (0, 0, 0, 0, 0, 9.8), topic="/accel")
+                m.image(T0 + i * 10_000_000)
+                m.imu(T0 + i * 10_000_000, (0.1 * i, 0, 0, 0, 0, 0), topic="/gyro")
+                if i % 4 == 0:
+                    m.imu(T0 + offset + i * 10_000_000, (0, 0, 0, i, 2 * i, 9.8), topic="/accel",
+                          frame=frame, gyro=-1.0)  # fmt: skip
+            for call in more:
+                call(m)
 
-        path = self.bag("bag", fill)
-        self.refused("/gyro has no acceleration, which may be in /accel", path, "--imu-topic", "/gyro")
-        self.refused("/accel has no angular velocity", path, "--imu-topic", "/accel")
-        told = self.converted(path, "--own-motion")[2]
+        return self.bag("bag", fill)
+
+    def rows_of(self, path, topic, **given):
+        out, _, told = self.converted(path, "--imu-topic", topic)
+        self.assertIn("the accelerations of /accel are interpolated to the times of /gyro", told)
+        lines = lines_of(out / "mav0/imu0/data.csv")[1:]
+        return [[float(x) for x in line.split(",")[1:]] for line in lines]
+
+    def test_an_imu_in_two_topics_is_joined_at_the_times_of_the_gyroscope(self):
+        expected = [[0.1 * i, 0, 0, i, 2 * i, 9.8] for i in range(9)]
+        for topic in ("/gyro", "/accel"):
+            np.testing.assert_allclose(self.rows_of(self.two_topics(), topic), expected, atol=1e-12)
+        later = self.rows_of(self.two_topics(offset=5_000_000), "/gyro")
+        np.testing.assert_allclose(later, [[0.1 * i, 0, 0, i - 0.5, 2 * i - 1, 9.8] for i in range(1, 9)],
+                                   atol=1e-6)  # fmt: skip
+        told = self.converted(self.two_topics(), "--own-motion")[2]
         self.assertIn("the bag's IMU /accel /gyro is not read", told)
+
+    def test_an_imu_in_two_topics_is_turned_by_the_transform_of_their_frames(self):
+        turn = lambda m: m.tf("/tf_static", T0, "imu", "accel", UP, np.pi / 2, (0, 0, 0))
+        rows = self.rows_of(self.two_topics(turn, frame="accel"), "/gyro")
+        np.testing.assert_allclose(rows, [[0.1 * i, 0, 0, -2 * i, i, 9.8] for i in range(9)], atol=1e-12)
+
+    def test_an_imu_in_topics_that_cannot_be_joined_is_refused_with_the_neutral_way(self):
+        third = lambda m: m.imu(T0, (0, 0, 0, 0, 0, 9.8), topic="/accel2")
+        for path, why in ((self.two_topics(third), "/gyro has no linear acceleration, and not just one other topic "
+                                                   "has it alone (/accel /accel2)"),
+                          (self.two_topics(frame="other"), "links the frames 'imu' of /gyro and 'other' of /accel"),
+                          (self.two_topics(offset=10**12), "have no common time")):  # fmt: skip
+            self.refused(why, path, "--imu-topic", "/gyro")
+            self.refused("NEUTRAL.md", path, "--imu-topic", "/gyro")
+
+    def test_an_mcap_whose_summary_repeats_no_channel_is_read(self):
+        try:
+            from mcap.reader import make_reader
+            from mcap.writer import Writer
+        except ImportError:
+            self.skipTest("needs mcap")
+        made = next(self.bag("mcap", *(lambda m, i=i: m.image(T0 + i) for i in range(3))).glob("*.mcap"))
+        bare = self.folder / "bare.mcap"
+        with made.open("rb") as old, bare.open("wb") as new:
+            writer = Writer(new, repeat_channels=False, repeat_schemas=False, use_statistics=False)
+            writer.start(profile="ros2", library="")
+            channels = {}
+            for schema, channel, message in make_reader(old).iter_messages():
+                if channel.topic not in channels:
+                    kind = writer.register_schema(schema.name, schema.encoding, schema.data)
+                    channels[channel.topic] = writer.register_channel(channel.topic, "cdr", kind)
+                writer.add_message(channels[channel.topic], message.log_time, message.data, message.log_time)
+            writer.finish()
+        out, _, _ = self.converted(bare)
+        self.assertEqual(lines_of(out / "mav0/cam0/data.csv")[1:], [f"{T0 + i},{T0 + i}.pgm" for i in range(3)])
 
     def test_an_mcap_of_another_profile_is_refused_by_its_name(self):
         for profile in (b"ros1", b""):
@@ -352,7 +403,7 @@ class Bags(unittest.TestCase):
             ("has no messages /other", [image], ("--image-topic", "/other")),
             ("format 'yuv422'", [lambda m: m.image(T0, "yuv422")], ()),
             ("format 'tiff'", [lambda m: m.compressed(T0, b"II*\0", format_="tiff")], ()),
-            ("not measure its angular_velocity", [image, lambda m: m.imu(T0, gyro=-1.0)], ()),
+            ("/imu has no angular velocity", [image, lambda m: m.imu(T0, gyro=-1.0)], ()),
             ("the frames 'base' and 'cam_optical'", [image, odometry], ("--poses-topic", "/odom")),
             ("no message of /cam/image_raw can be read", [lambda m: m.image(T0, step=5)], ()),
             ("File exists", [image], ("--out", self.folder)),
