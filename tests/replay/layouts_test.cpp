@@ -307,6 +307,24 @@ TEST_F(Layouts, AFolderOfNothingKnownIsToldSo) {
   EXPECT_THROW(layout_of(asked(home_.path() / "empty")), input::Error);
 }
 
+TEST_F(Layouts, RefuseWithTheFolderThatAnyRecordingCanBeTurnedInto) {
+  for (const RecordingLayout& layout : layouts()) {
+    scenario::Scenario scenario;
+    scenario::RecordingSource& asked = scenario.recording.emplace();
+    asked.source = {"drive.yaml", 1};
+    asked.path = home_.path() / "nothing";
+    asked.format = layout.name;
+    fs::create_directories(asked.path);
+    std::string refused;
+    try {
+      read_recorded(scenario);
+    } catch (const std::runtime_error& error) {
+      refused = error.what();
+    }
+    EXPECT_NE(refused.find("NEUTRAL.md"), refused.npos) << layout.name << ": " << refused;
+  }
+}
+
 TEST_F(Layouts, HaveTheNamesThatScenariosTake) {
   ASSERT_EQ(layouts().size(), scenario::kRecordingFormats.size());
   for (std::size_t i = 0; i < layouts().size(); ++i) {

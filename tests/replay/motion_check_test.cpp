@@ -212,6 +212,17 @@ TEST_F(MotionWatched, AsTheInverseOrWithWFirstIsRefused) {
               "w first");
 }
 
+TEST_F(MotionWatched, OnASlopeIsLeftAlone) {
+  const auto uphill = [](int k) {
+    constexpr double kSlope = 0.15, kRampAt = 8;
+    const double pitch = k < kRampAt ? 0 : kSlope;
+    return sim::Pose{Eigen::AngleAxisd(pitch, Vector3d::UnitX()).toRotationMatrix(),
+                     {0, -0.2 * std::sin(pitch) * (k - kRampAt), 0.2 * k}};
+  };
+  draw([&](int k) { return view(uphill(k)); });
+  EXPECT_UNTOLD(told([&](int k) { return tum(k, uphill(k)); }), "contradict");
+}
+
 TEST_F(MotionWatched, OfOtherPicturesIsRefused) {
   draw(right_view);
   EXPECT_TOLD(told([](int k) {

@@ -56,6 +56,30 @@ class ToolTable : public testing::Test {
   Tally tally_;
 };
 
+TEST_F(ToolTable, OfPicturesMayBeginWithTheirNames) {
+  std::vector<std::int64_t> expected;
+  for (int i = 0; i < 20; ++i) expected.push_back(12'000 + 100 * i);
+  for (const char* row :
+       {"{:05}.jpg {}", "img/{:05}.jpg,{}", "img/{:05}.jpg;{}", "{:05}.JPG\t{}"}) {
+    EXPECT_EQ(times("", [&](int i) { return fmt::format(fmt::runtime(row), i, 12 + 0.1 * i); }),
+              expected)
+        << row;
+  }
+  for (const char* row : {"frame_{}.png {}", "{}.png {}"}) {
+    write(
+        "", [&](int i) { return fmt::format(fmt::runtime(row), i, 12 + 0.1 * i); }, 20);
+    Recorded recorded;
+    take_list(
+        read_table(path_), kSecond_ns,
+        [](const TextTable::Row& of) { return fs::path(of.fields[1]); }, recorded);
+    ASSERT_EQ(recorded.frames.size(), 20u) << row;
+    EXPECT_EQ(recorded.frames[3].t_ns, 12'300'000'000);
+    EXPECT_TRUE(recorded.frames[3].picture.string().ends_with("3.png"));
+  }
+  expect_refused([&] { poses("", [](int i) { return fmt::format("a{}.png 1 2 3 0 0 0 1", i); }); },
+                 {"its first row begins with 'a0.png'"});
+}
+
 TEST_F(ToolTable, OfPosesIsReadByTheNamesOfItsColumnsInAnyCase) {
   for (const char* header :
        {"Timestamp\tX\tY\tZ\tQW\tQX\tQY\tQZ\n",

@@ -109,8 +109,8 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
       said.erase(0, said.find(": ") + 2);
       said.erase(std::min(said.size(), said.find(", or put their unit into the header")));
       const std::string& topic = by_poses ? topics.poses : topics.imu;
-      throw input::Error(asked.source, "{}, of the bag's {}: correct the bag's messages; {}", said,
-                         topic.empty() ? "only such topic" : topic, kNeutralWay);
+      throw input::Error(asked.source, "{}, of the bag's {}: correct the bag's messages", said,
+                         topic.empty() ? "only such topic" : topic);
     }
   }();
   recorded.keep = folder;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "scenes/worlds/worlds.h"
@@ -334,6 +335,20 @@ void require_effects(const scenario::RecordingSource& asked, const RecordingLayo
   }
 }
 
+/// Reads a layout. Each of its refusals names the folder that any recording can be turned into.
+Recorded read_layout(const RecordingLayout& layout, const scenario::RecordingSource& asked,
+                     bool exact_motion) {
+  try {
+    return layout.read(asked, exact_motion);
+  } catch (const std::system_error&) {  // of this machine
+    throw;
+  } catch (const std::runtime_error& refusal) {
+    const std::string said = refusal.what();
+    const bool is_named = said.find("NEUTRAL.md") != said.npos;
+    throw input::Error({}, is_named ? said : fmt::format("{}; {}", said, kNeutralWay));
+  }
+}
+
 /// With the files of a neutral folder (NEUTRAL.md) in place of keys that are not given.
 scenario::RecordingSource with_neutral_files(scenario::RecordingSource asked) {
   const auto take = [&](const char* name, std::optional<fs::path>& key) {
@@ -542,7 +557,7 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
                                               ? with_neutral_files(scenario.recording.value())
                                               : scenario.recording.value();
   const bool exact_motion = scenario.ego_motion == scenario::EgoMotionSource::truth;
-  Recorded recorded = layout.read(asked, exact_motion);
+  Recorded recorded = read_layout(layout, asked, exact_motion);
   recorded.settings.origin = origin_of(asked.path);
   // Without a calibration the cameras of KITTI look as the mount says.
   if (layout.name == "kitti" && !recorded.lens) recorded.took.insert("mount");

@@ -416,8 +416,9 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   require_velocities(table, poses);
   if (std::ranges::none_of(poses.lines, [](const auto& line) { return line.has_value(); })) {
     throw input::Error({path, 0},
-                       "holds no pose: {}; give a line of 8 numbers (TUM) or 12 (KITTI) for each",
-                       table.columns());
+                       "holds no pose: {}, and its first row begins with '{}'; give a line of 8 "
+                       "numbers (TUM: with its time first) or 12 (KITTI) for each",
+                       table.columns(), first.fields.front());
   }
   return poses;
 }

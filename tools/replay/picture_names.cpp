@@ -34,12 +34,6 @@ struct Name {
   std::vector<Number> numbers;
 };
 
-bool is_picture(const fs::path& file) {
-  static const std::set<std::string> kKinds = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
-                                               ".tiff", ".pgm", ".ppm",  ".webp"};
-  return kKinds.contains(in_lower_case(file.extension().string()));
-}
-
 Name name_of(const fs::path& file) {
   const std::string stem = file.stem().string();
   const auto end_of_digits = [&](std::size_t from) {
@@ -222,6 +216,12 @@ std::vector<std::int64_t> times_of(const std::vector<Name>& names, std::size_t p
 }
 
 }  // namespace
+
+bool is_picture(const fs::path& file) {
+  static const std::set<std::string> kKinds = {".png",  ".jpg", ".jpeg", ".bmp", ".tif",
+                                               ".tiff", ".pgm", ".ppm",  ".webp"};
+  return kKinds.contains(in_lower_case(file.extension().string()));
+}
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> files;

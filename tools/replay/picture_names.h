@@ -9,6 +9,9 @@
 
 namespace lcs::replay {
 
+/// Whether a name has the ending of a PNG, JPEG, BMP, TIFF, WebP, PGM or PPM file.
+bool is_picture(const std::filesystem::path& file);
+
 /// The PNG, JPEG, BMP, TIFF, WebP, PGM and PPM files of a folder, in any order.
 /// \throws std::runtime_error for a folder that cannot be read or has no picture.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);

@@ -213,8 +213,11 @@ void take_list(const TextTable& list, std::int64_t unit_ns,
                Recorded& recorded) {
   require_zeros(list, 0);
   for (std::size_t i = 0; i < list.rows.size(); ++i) {
-    const auto t_ns = time_in(list.rows[i].fields.front(), unit_ns);
-    const fs::path picture = picture_of(list.rows[i]);
+    TextTable::Row row = list.rows[i];
+    const bool is_name_first = row.fields.size() > 1 && is_picture(row.fields[0]);
+    if (is_name_first) std::swap(row.fields[0], row.fields[1]);
+    const auto t_ns = time_in(row.fields.front(), unit_ns);
+    const fs::path picture = picture_of(row);
     if (t_ns && !picture.empty()) {
       recorded.frames.push_back({*t_ns, picture, i});
     } else {

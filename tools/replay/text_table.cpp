@@ -10,6 +10,7 @@
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/replay/picture_names.h"
 #include "tools/replay/times.h"
 
 namespace lcs::replay {
@@ -72,14 +73,16 @@ bool is_comment(std::string_view line) {
   return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
 }
 
-/// Begins with a number; or with a word, and most fields are numbers.
+/// Begins with a number; or with a word, and most fields are numbers; or with the name of a
+/// picture, and another field is a number.
 bool is_row(std::string_view line) {
   const char c = line.front();
   if (std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '+' || c == '.') return true;
   const std::vector<std::string> fields = fields_in(line, separator_in(line));
   const auto numbers = std::ranges::count_if(
       fields, [](const std::string& field) { return files::number_in<double>(field).has_value(); });
-  return !is_comment(line) && numbers > 2 && 2 * numbers > std::ssize(fields);
+  if (is_comment(line)) return false;
+  return is_picture(fields[0]) ? numbers > 0 : numbers > 2 && 2 * numbers > std::ssize(fields);
 }
 
 /// A table of a tool that needs more than other names of columns.
