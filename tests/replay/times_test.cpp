@@ -1,5 +1,5 @@
 // Calendar times of recordings, compared with days counted by hand.
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 
 #include <gtest/gtest.h>
 

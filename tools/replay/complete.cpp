@@ -17,7 +17,7 @@
 #include "tools/replay/motion_source.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {

@@ -18,7 +18,6 @@
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
-#include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {

@@ -13,7 +13,7 @@
 #include "filter/detect/fast.h"
 #include "sim/pictures/media.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {
@@ -257,6 +257,9 @@ void MotionCheck::finish(const sim::Rectifier& rectifier) {
     step_.tracks.emplace_back(place(before[0]), place(now[0]));
   }
   if (step_.tracks.size() < kFewestTracks) return;
+  if (!step_.is_turn_told) {
+    step_.told.R = fitted_turn(step_.tracks, step_.told, step_.tolerance);
+  }
   steps_.push_back(step_);
   is_due_ = steps_.size() % kEnoughSteps == 0;
   if (steps_.size() >= kEnoughSteps) pause_ = kPause;
@@ -298,10 +301,9 @@ MotionCheck::Judgement MotionCheck::judgement() const {
     const auto part = [&, end = at + std::ssize(step.tracks)](const std::vector<bool>& of) {
       return std::vector<bool>(of.begin() + at, of.begin() + end);
     };
-    RigidMotion motion = step.told;
-    if (!step.is_turn_told) motion.R = fitted_turn(step.tracks, motion, step.tolerance);
-    const bool is_wrong = share_of(seen_by(motion, step.tracks, step.tolerance)) < kContradicts ||
-                          (is_better && step.sigma_m == 0 && sees_more(part(by_other), part(seen)));
+    const bool is_wrong =
+        share_of(seen_by(step.told, step.tracks, step.tolerance)) < kContradicts ||
+        (is_better && step.sigma_m == 0 && sees_more(part(by_other), part(seen)));
     at += std::ssize(step.tracks);
     all.frames += step.frames;
     if (is_wrong) all.wrong += step.frames;

@@ -16,7 +16,6 @@
 #include "tools/files/csv.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/text_table.h"
-#include "tools/replay/times.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {

@@ -17,7 +17,6 @@
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
-#include "tools/replay/times.h"
 
 namespace lcs::replay {
 

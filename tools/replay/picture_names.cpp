@@ -10,7 +10,7 @@
 
 #include "scenarios/input/error.h"
 #include "tools/files/csv.h"
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {

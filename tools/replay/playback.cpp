@@ -10,7 +10,7 @@
 #include "scenarios/input/message.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {

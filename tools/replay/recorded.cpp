@@ -5,7 +5,7 @@
 
 #include "scenarios/input/inputs_read.h"
 #include "tools/replay/picture_names.h"
-#include "tools/replay/times.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 

@@ -1,8 +1,13 @@
 /// \file
-/// Text tables from other tools: any line ends, any of the usual separators, an optional header.
+/// Text tables from other tools: any line ends, any of the usual separators, an optional header;
+/// and times of recordings: nanoseconds of a clock with any zero.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -13,6 +18,8 @@
 namespace lcs::replay {
 
 namespace fs = std::filesystem;
+
+class Tally;
 
 struct TextTable {
   struct Column {
@@ -72,5 +79,83 @@ struct Quantities {
 /// the header; empty lines and further lines that begin with '#' are skipped.
 /// \throws input::Error if the file cannot be read, or is of a tool whose tables are not read.
 TextTable read_table(const fs::path& file);
+
+/// The largest distance from the clock's zero (146 years), so that differences do not overflow.
+inline constexpr std::int64_t kFarthest_ns = std::numeric_limits<std::int64_t>::max() / 2;
+
+inline bool is_time(std::int64_t t_ns) {
+  return t_ns >= -kFarthest_ns && t_ns <= kFarthest_ns;
+}
+
+/// \name Units of time, in ns.
+///@{
+inline constexpr std::int64_t kNanosecond_ns = 1, kMicrosecond_ns = 1000,
+                              kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
+/// \param name s, ms, us or ns, or a longer form of it; absent for another.
+std::optional<std::int64_t> time_unit_named(std::string_view name);
+///@}
+
+/// Parses a number of units, as "1305031102.175304" or "1.5e-01"; absent if malformed or too far
+/// from zero. Exact to the nanosecond; further digits are dropped.
+std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns);
+
+/// Parses UTC, as "2011-09-26" and "13:02:25.964389445", to nanoseconds since 1970, rounded; absent
+/// for an invalid time or a date outside the years 1900 to 2099. A leap second becomes the first
+/// second of the next minute.
+std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock);
+
+/// The rate of the rows of a table, as far as it is known without their times.
+struct ExpectedRate {
+  double least_hz, most_hz;         ///< that such a sensor can have
+  std::optional<double> stated_hz;  ///< by the recording
+  std::string stated_by = {};       ///< file that states it
+};
+inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
+inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
+/// Of wheels, and of truths.
+inline constexpr double kSlowestState_hz = 1, kFastestState_hz = 990;
+
+/// The unit of a table's times, as far as it is known before the table is read.
+struct TableTimes {
+  std::string asked;  ///< s, ms, us or ns; "": as the table states it
+  ExpectedRate rate;
+  std::optional<std::int64_t> layouts;  ///< unit in ns that its layout has
+
+  /// In ns: the first that gives the expected rate, of `asked`, the header's unit, and `layouts`;
+  /// else the only one that gives it, which is told. \throws input::Error if a stated unit
+  /// contradicts the rate, or no unit gives it.
+  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const;
+};
+
+/// A column of times, and perhaps one of their fractions beside seconds, as ROS has them.
+struct TimeColumn {
+  std::size_t column = 0;
+  std::int64_t unit_ns = 1;
+  std::optional<std::size_t> rest = {};
+  std::int64_t rest_ns = kNanosecond_ns;
+
+  std::optional<std::int64_t> of(const TextTable::Row& row) const;
+};
+/// The column that the header calls so, else the first one.
+/// \throws input::Error for a header without one, and as `TableTimes::unit_ns`.
+TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally& tally);
+
+/// Whether fractions of seconds, as 12.5, lack leading zeros: 12.05 was meant. Then they have
+/// different counts of digits, and as whole numbers they give a more regular rate.
+bool lack_zeros(const std::vector<std::string_view>& times);
+/// \throws input::Error if the times in a column do.
+void require_zeros(const TextTable& table, std::size_t column);
+
+/// The upper median; absent for an empty list.
+template <class Number>
+std::optional<Number> usual(std::vector<Number> values) {
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The rate of times in ns by their usual difference; absent for fewer than two.
+std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns);
 
 }  // namespace lcs::replay
