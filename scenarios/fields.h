@@ -106,12 +106,17 @@ void fields(EgoPhase& phase, auto&& visit) {
 }
 
 void fields(Ego& ego, auto&& visit) {
-  auto& [source, drive, drive_file, start_m, heading_rad, phases, waypoints, path] = ego;
+  auto& [source, drive, drive_file, pose, start_m, heading_rad, phases, waypoints, path] = ego;
   if (phases.empty()) phases.emplace_back();
   visit({"drive",
          "`holonomic`: a planar base that follows any command; `wheeled`: two driven wheels on "
          "contacts; or a rover of one's own (scenes/README.md): a path relative to this file"},
         drive, OwnFileOr{{"holonomic", "wheeled"}, drive_file});
+  visit({"pose",
+         "of the joints beside the drive, as of an arm: they stay as in this keyframe of the "
+         "rover's file, or at `zero`",
+         "they are loose"},
+        pose);
   visit({"start", "[x, y]"}, start_m, kPosition);
   visit({"heading", "the direction that the rover faces at the start"}, heading_rad, kAngle);
   motion_fields(phases.front(), "", visit);
@@ -122,7 +127,7 @@ void fields(Ego& ego, auto&& visit) {
         phases);
   visit({"waypoints",
          "`[[time, x, y], ...]`, two or more: places and the times to be there, which increase. In "
-         "place of all other keys but `drive`, which is holonomic",
+         "place of all other keys but `pose` and `drive`, which is holonomic",
          "none"},
         waypoints);
   visit.in_place_of("waypoints", {"start", "heading", "speed", "acceleration", "direction",
@@ -133,8 +138,8 @@ void fields(Ego& ego, auto&& visit) {
          "at both ends. In place of all other keys",
          "none"},
         path);
-  visit.in_place_of("path", {"drive", "start", "heading", "speed", "acceleration", "direction",
-                             "yaw_rate", "phases", "waypoints"});
+  visit.in_place_of("path", {"drive", "pose", "start", "heading", "speed", "acceleration",
+                             "direction", "yaw_rate", "phases", "waypoints"});
 }
 
 // --- its sensors
@@ -669,8 +674,8 @@ void fields(TruthKeys& truth, auto&& visit) {
 }
 
 void fields(Scenario& scenario, auto&& visit) {
-  auto& [name, file, purpose, groups, recording, scene, scene_source, origin, seed, frames, ego,
-         camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, events,
+  auto& [name, file, purpose, groups, recording, scene, scene_source, pose, origin, seed, frames,
+         ego, camera, cameras, filter_camera, rig_place, imu, odometry, ego_motion, events,
          corner_source, fast_threshold, truth_min_depth_m, image, ground, actors, filter_preset,
          filter_preset_source, filter, criteria, world, sweep] = scenario;
   visit({"purpose", "one line for people", "none"}, purpose);
@@ -680,6 +685,11 @@ void fields(Scenario& scenario, auto&& visit) {
          "a scene of `scenes/` by its name, or a path ending in `.xml`, relative to this file",
          kOneOfThese},
         scene, SceneName{scene_source});
+  visit({"pose",
+         "of the scene's joints: they stay as in this keyframe of the scene, or at `zero`; bodies "
+         "with a free joint alone start there",
+         "they are loose"},
+        pose);
   visit(
       {"recording", "recorded frames in place of a scene and all that belongs to it", kOneOfThese},
       recording);
@@ -732,7 +742,7 @@ void fields(Scenario& scenario, auto&& visit) {
   visit({"ground", "bumps on the floor", "level"}, ground);
   visit({"actors", "who else moves, by name", "none"}, actors);
   visit.in_place_of(
-      "recording", {"scene", "origin", "seed", "ego", "camera", "cameras", "filter_camera",
+      "recording", {"scene", "pose", "origin", "seed", "ego", "camera", "cameras", "filter_camera",
                     "duration", "imu", "odometry", "events", "truth", "image", "ground", "actors"});
   visit({"ego_motion",
          "what the filter is told of the rover's own motion: `imu` integrates the simulated IMU "

@@ -57,6 +57,8 @@ struct Ego {
   input::Source source;
   Drive drive = Drive::holonomic;
   std::filesystem::path drive_file;  ///< for `Drive::own`: MJCF file, exists
+  /// Of the joints beside the drive: a keyframe of its file, or `kPoseZero`; "": they are loose.
+  std::string pose;
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   std::vector<EgoPhase> phases;  ///< at least one; the first has time 0, times increase
@@ -448,6 +450,7 @@ struct Scenario {
   std::optional<RecordingSource> recording;
   std::filesystem::path scene;  ///< MJCF file, exists
   input::Source scene_source;
+  std::string pose;  ///< of the scene's joints: a keyframe, or `kPoseZero`; "": they are loose
   std::optional<Origin> origin;  ///< as stated in the scenario file; the scene may state one, too
   std::uint64_t seed = 1;  ///< of all random streams: textures, IMU noise, odometry and others
   int frames = 0;          ///< > 0; for a recording: the most, and 0 for all of its frames

@@ -4,7 +4,7 @@
 
 #include "sim/camera/gl_context.h"
 #include "sim/observer.h"
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 
 namespace lcs::sim {
 

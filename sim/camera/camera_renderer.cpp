@@ -13,7 +13,7 @@
 
 #include "sim/camera/gl_context.h"
 #include "sim/camera/round_cylinders.h"
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 
 namespace lcs::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 
 // gcc's and clang's ways to say that AddressSanitizer is on
 #ifdef __has_feature

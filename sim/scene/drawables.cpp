@@ -7,7 +7,8 @@
 namespace lcs::sim {
 namespace {
 
-constexpr double kStain_m = 0.01;  // most distance of a stain from the surface behind it
+constexpr double kStain_m = 0.01;    // most distance of a stain from the surface behind it
+constexpr double kMarker_m = 0.006;  // most size of a site that marks a place; MuJoCo's is 0.005
 
 bool is_fixed(const mjModel& m, int geom) {
   return m.body_weldid[m.geom_bodyid[geom]] == 0;
@@ -126,9 +127,12 @@ std::vector<std::pair<mjtObj, int>> undrawn_parts(const Model& model) {
                             kUsualGroups[static_cast<std::size_t>(m.tendon_group[tendon])];
     if (is_visible) parts.emplace_back(mjOBJ_TENDON, tendon);
   }
-#if mjVERSION_HEADER >= 300
   for (int flex = 0; flex < m.nflex; ++flex) parts.emplace_back(mjOBJ_FLEX, flex);
-#endif
+  for (int site = 0; site < m.nsite; ++site) {
+    const bool is_visible = m.site_rgba[4 * site + 3] > 0 && m.site_size[3 * site] > kMarker_m &&
+                            kUsualGroups[static_cast<std::size_t>(m.site_group[site])];
+    if (is_visible) parts.emplace_back(mjOBJ_SITE, site);
+  }
   return parts;
 }
 

@@ -53,7 +53,8 @@ class Drawables {
 };
 
 /// The parts of the model that MuJoCo draws by default as surfaces of their own, and that are not
-/// drawn here, because they have no truth: kind and id of skins and tendons.
+/// drawn here, because they have no truth: kind and id of skins, tendons, flexes and sites that are
+/// larger than a mark.
 std::vector<std::pair<mjtObj, int>> undrawn_parts(const Model& model);
 
 }  // namespace lcs::sim

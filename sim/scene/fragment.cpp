@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -133,7 +134,15 @@ void split_free_joints(Element& root) {
       Element* part = root.GetDocument()->NewElement("joint");
       part->SetAttribute("type", *axis ? "slide" : "ball");
       if (*axis) part->SetAttribute("axis", axis);
-      part->SetAttribute("ref", 0);
+      // none of the file's defaults, of which some are wrong for a ball
+      for (const auto& [key, value] : {std::pair("limited", "false"),
+                                       {"range", "0 0"},
+                                       {"actuatorfrclimited", "false"},
+                                       {"springdamper", "0 0"},
+                                       {"pos", "0 0 0"},
+                                       {"ref", "0"}}) {
+        part->SetAttribute(key, value);
+      }
       last = body.InsertAfterChild(last, part);
     }
     body.DeleteChild(joint);
@@ -152,58 +161,56 @@ mjsElement* keyframe(const mjSpec& spec, const std::string& name) {
   return found;
 }
 
-/// Makes an actor rigid: its bodies keep the poses of a keyframe, and the joints go with all that
-/// refers to them. \return whether there were joints.
-bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& reader) {
-  mjSpec& spec = *fragment.spec;
-  bool has_joints = false;
-  const auto remove_joints = [&](bool only_free) {
-    for_each(spec, mjOBJ_JOINT, [&](mjsElement* e) {
-      if (only_free && mjs_asJoint(e)->type != mjJNT_FREE) return;
-      remove(spec, e);
-      has_joints = true;
-    });
-  };
-  remove_joints(true);  // its trajectory moves it
-  mjsElement* key = nullptr;
-  const bool is_keyframe = !actor.walks() && actor.pose != scenario::kPoseZero;
-  if (is_keyframe && !(key = keyframe(spec, actor.pose))) {
-    std::vector<std::string> known{scenario::kPoseZero, scenario::kPoseWalking};
-    for_each(spec, mjOBJ_KEY, [&](mjsElement* e) { known.emplace_back(name_of(e)); });
-    throw input::Error(
-        actor.source,
-        "actor '{}' has the pose '{}', which is no keyframe of its file; choose one of {}",
-        actor.name, actor.pose, fmt::join(known, ", "));
-  }
-  const std::unique_ptr<mjModel, ModelDeleter> model(
-      call_mujoco([&] { return mj_compile(&spec, nullptr); }));
-  if (!model) throw reader.refusal(mjs_getError(&spec), &spec);
-  const std::unique_ptr<mjData, DataDeleter> data(
-      call_mujoco([&] { return mj_makeData(model.get()); }));
-  if (!data) throw MujocoError("could not allocate the state of an actor");
-  if (key) {
-    mj_resetDataKeyframe(model.get(), data.get(),
-                         mj_name2id(model.get(), mjOBJ_KEY, std::string(name_of(key)).c_str()));
-  }
-  call_mujoco([&] { mj_kinematics(model.get(), data.get()); });
-  const auto pose = [&](int body) {
-    using Rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    return Pose{Eigen::Map<const Rotation>(data->xmat + 9 * body),
-                Eigen::Map<const Vector3d>(data->xpos + 3 * body)};
-  };
-  std::vector<std::pair<mjsElement*, Pose>> posed;  // first, as an edit takes the ids away
-  for_each(spec, mjOBJ_BODY, [&](mjsElement* e) {
-    const int body = mjs_getId(e);
-    if (body == 0 || mjs_asBody(e) == fragment.base) return;
-    posed.emplace_back(e, pose(model->body_parentid[body]).inverse() * pose(body));
+/// The joints of a rover that a pose holds: those with a motor that does not drive, and all in the
+/// bodies that they move, as fingers. Without contacts all but the drive's; wheels, casters and
+/// springs on contacts stay loose.
+std::set<mjsElement*> loose_joints(const mjSpec& spec) {
+  std::set<mjsElement*> loose;
+  if (!is_wheeled(spec)) for_each(spec, mjOBJ_JOINT, [&](mjsElement* e) { loose.insert(e); });
+  for_each(spec, mjOBJ_ACTUATOR, [&](mjsElement* e) {
+    mjsElement* const joint = find(spec, mjOBJ_JOINT, mjs_getString(mjs_asActuator(e)->target));
+    if (!joint || is_driven(name_of(e))) return;
+    for_each_in(*mjs_getParent(joint), mjOBJ_JOINT, true, [&](mjsElement* j) { loose.insert(j); });
   });
-  for (const auto& [body, in_parent] : posed) set_pose_in_body(body, in_parent);
-  remove_joints(false);
-  take_warning();  // of the joints' limits and the like
-  return has_joints;
+  std::erase_if(loose, [](mjsElement* joint) { return is_driven(name_of(joint)); });
+  return loose;
 }
 
 }  // namespace
+
+bool freeze(mjSpec& spec, const std::string& pose, const std::function<bool(mjsElement*)>& goes,
+            const std::string& who, const input::Source& where, const mjsBody* base) {
+  mjsElement* key = nullptr;
+  if (pose != scenario::kPoseZero && !(key = keyframe(spec, pose))) {
+    std::vector<std::string> known{scenario::kPoseZero};
+    for_each(spec, mjOBJ_KEY, [&](mjsElement* e) { known.emplace_back(name_of(e)); });
+    throw input::Error(where,
+                       "{} the pose '{}', which is no keyframe of its file; choose one of {}", who,
+                       pose, fmt::join(known, ", "));
+  }
+  Model model(spec);
+  if (key) {
+    mj_resetDataKeyframe(&model.m(), &model.d(), model.id(mjOBJ_KEY, std::string(name_of(key))));
+  }
+  call_mujoco([&] { mj_kinematics(&model.m(), &model.d()); });
+  std::vector<std::pair<mjsElement*, Pose>> posed;  // first, as an edit takes the ids away
+  std::vector<mjsElement*> joints;
+  for_each(spec, mjOBJ_BODY, [&](mjsElement* e) {
+    mjsElement* const first = mjs_firstChild(mjs_asBody(e), mjOBJ_JOINT, 0);
+    const int body = mjs_getId(e);
+    if (!first || mjs_asBody(e) == base) return;
+    for_each_in(*mjs_asBody(e), mjOBJ_JOINT, false, [&](mjsElement* joint) {
+      if (goes(joint)) joints.push_back(joint);
+    });
+    if (!goes(first) && mjs_asJoint(first)->type != mjJNT_FREE) return;
+    const Pose T_WP = model.body_pose(model.m().body_parentid[body]);
+    posed.emplace_back(e, T_WP.inverse() * model.body_pose(body));
+  });
+  for (const auto& [body, in_parent] : posed) set_pose_in_body(body, in_parent);
+  for (mjsElement* joint : joints) remove(spec, joint);
+  take_warning();  // of the joints' limits and the like
+  return !joints.empty();
+}
 
 bool has_picture(const scenario::Actor& actor) {
   return !actor.texture.empty() && !is_texture_style(actor.texture);
@@ -220,12 +227,21 @@ Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader) {
                                 if (has_keyframe) split_free_joints(root);
                               });
   fragment.base = &check_base(*fragment.spec, reader, file);
-  if (actor.walks()) {
-    freeze(fragment, actor, reader);
-    check_walker(*fragment.base, reader);
-  } else if (!actor.pose.empty()) {
-    fragment.is_frozen = freeze(fragment, actor, reader);
+  mjSpec& spec = *fragment.spec;
+  if (actor.walks() || !actor.pose.empty()) {
+    bool is_free = false;
+    for_each(spec, mjOBJ_JOINT, [&](mjsElement* e) {  // its trajectory moves it
+      if (mjs_asJoint(e)->type != mjJNT_FREE) return;
+      remove(spec, e);
+      is_free = true;
+    });
+    const std::string pose = actor.walks() ? scenario::kPoseZero : actor.pose;
+    const bool had_joints = freeze(
+        spec, pose, [](mjsElement*) { return true; }, fmt::format("actor '{}' has", actor.name),
+        actor.source);
+    fragment.is_frozen = !actor.walks() && (is_free || had_joints);
   }
+  if (actor.walks()) check_walker(*fragment.base, reader);
   const Vector3d natural_m = check_actor(fragment, reader);
   fragment.size_m = actor.size_m.value_or(natural_m);
   if (actor.shape == Shape::cylinder && fragment.size_m.x() != fragment.size_m.y()) {
@@ -233,8 +249,8 @@ Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader) {
   }
   const Vector3d factor = fragment.size_m.cwiseQuotient(natural_m);
   if (!factor.isApproxToConstant(1)) scale_in(*fragment.base, Matrix3d::Identity(), factor);
-  take_contacts_away(*fragment.spec);
-  for_each(*fragment.spec, mjOBJ_KEY, [&](mjsElement* e) { mjs_delete(fragment.spec.get(), e); });
+  take_contacts_away(spec);
+  for_each(spec, mjOBJ_KEY, [&](mjsElement* e) { mjs_delete(&spec, e); });
   return fragment;
 }
 
@@ -246,6 +262,16 @@ Fragment rover_fragment(const scenario::Ego& ego, SpecReader& reader) {
   fragment.base = &check_base(*spec, reader, file);
   if (ego.is_carried()) return fragment;
   check_rover(fragment, reader);
+  const std::set<mjsElement*> loose = loose_joints(*spec);
+  if (!ego.pose.empty()) {
+    fragment.is_frozen = freeze(
+        *spec, ego.pose, [&](mjsElement* joint) { return loose.contains(joint); }, "the rover has",
+        ego.source, fragment.base);
+  } else {
+    for_each(*spec, mjOBJ_JOINT, [&](mjsElement* e) {
+      if (loose.contains(e)) fragment.loose_joints.emplace_back(name_of(e));
+    });
+  }
   // the file's cameras are for a viewer; their names may clash with the scenario's camera
   for (const mjtObj type : {mjOBJ_CAMERA, mjOBJ_KEY}) {
     for_each(*spec, type, [&](mjsElement* e) { mjs_delete(spec, e); });

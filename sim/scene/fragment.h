@@ -7,6 +7,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "scenarios/scenario.h"
 #include "sim/scene/spec.h"
@@ -22,7 +25,8 @@ struct Fragment {
   Spec spec;
   mjsBody* base = nullptr;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< of an actor: [length, width, height]
-  bool is_frozen = false;  ///< an actor had joints, which keep `Actor::pose`
+  bool is_frozen = false;                            ///< it had joints, which keep a pose
+  std::vector<std::string> loose_joints = {};        ///< of a rover: see `Warning::joints_loose`
 };
 
 /// The fragment of an actor: posed, scaled from its file's size to the requested size, painted, and
@@ -32,6 +36,14 @@ Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader);
 
 /// The fragment of the rover. Only a wheeled rover keeps its contacts. \throws input::Error
 Fragment rover_fragment(const scenario::Ego& ego, SpecReader& reader);
+
+/// Takes joints away from a model that compiles by itself: their bodies keep the poses of a
+/// keyframe or, by `kPoseZero`, of MuJoCo's reference. What refers to the joints goes with them.
+/// Bodies with a free joint that stays start there, except `base`. \param goes whether a joint
+/// goes. \param who has the pose. \return whether there were such joints. \throws input::Error for
+/// an unknown keyframe; MujocoError.
+bool freeze(mjSpec& spec, const std::string& pose, const std::function<bool(mjsElement*)>& goes,
+            const std::string& who, const input::Source& where, const mjsBody* base = nullptr);
 
 /// \name Checks that a rover's or actor's file has all required elements; `scenes/README.md` lists
 /// them. All throw input::Error at the file's line: the missing or wrong element, and the remedy.
@@ -45,6 +57,9 @@ Eigen::Vector3d check_actor(const Fragment& actor, const SpecReader& reader);
 void check_walker(const mjsBody& base, const SpecReader& reader);
 void check_rover(const Fragment& rover, const SpecReader& reader);
 ///@}
+
+/// Whether a rover's actuator of that name drives it.
+bool is_driven(std::string_view actuator);
 
 /// Whether a rover that passed `check_rover` is wheeled; otherwise it is holonomic.
 bool is_wheeled(const mjSpec& spec);

@@ -173,7 +173,8 @@ mjsBody& check_base(const mjSpec& spec, const SpecReader& reader,
     mjsElement* const other = mjs_firstChild(&world, mjOBJ_BODY, 0);
     throw input::Error(other ? reader.source(other) : input::Source{file.string(), 1},
                        "there is no body called 'base'; put all that a rover or an actor is into "
-                       "<worldbody><body name=\"base\">");
+                       "<worldbody><body name=\"base\">, another's robot (MJCF or URDF) by <model> "
+                       "and <attach>, as scenes/README.md shows");
   }
   for (const mjtObj type : {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE}) {
     for_each_in(world, type, false, [&](mjsElement* e) {
@@ -274,13 +275,12 @@ void check_rover(const Fragment& rover, const SpecReader& reader) {
   for_each(spec, mjOBJ_ACTUATOR, [&](mjsElement* e) {
     if (!first) first = e;
     const std::string_view name = name_of(e);
+    if (!is_driven(name)) return;
     const bool is_left = is_wheel(name, "left"), is_right = is_wheel(name, "right");
-    const bool is_axis = name == "x" || name == "y" || name == "yaw";
-    if (!is_left && !is_right && !is_axis) return;
     check_actuator(spec, e, reader);
     left += is_left;
     right += is_right;
-    axes += is_axis;
+    axes += !is_left && !is_right;
     driven += (driven.empty() ? "" : ", ") + std::string(name);
   });
   const bool is_holonomic = axes == 3 && left + right == 0;
@@ -293,6 +293,11 @@ void check_rover(const Fragment& rover, const SpecReader& reader) {
     reader.refuse(first ? first : rover.base->element, what);
   }
   is_holonomic ? check_holonomic(*rover.base, reader) : check_wheeled(spec, *rover.base, reader);
+}
+
+bool is_driven(std::string_view actuator) {
+  return actuator == "x" || actuator == "y" || actuator == "yaw" || is_wheel(actuator, "left") ||
+         is_wheel(actuator, "right");
 }
 
 bool is_wheeled(const mjSpec& spec) {

@@ -66,10 +66,25 @@ std::string material_of_floor(const mjsBody& world) {
   return material;
 }
 
+/// Gives a geom the values that it has in an empty model.
+void take_no_defaults(mjsGeom& geom) {
+  const Spec empty(mj_makeSpec());
+  const mjsGeom own = geom;
+  geom = *mjs_addGeom(mjs_findBody(empty.get(), "world"), nullptr);
+  geom.element = own.element;
+  geom.material = own.material;
+  geom.hfieldname = own.hfieldname;
+  geom.meshname = own.meshname;
+  geom.userdata = own.userdata;
+  geom.plugin = own.plugin;
+  geom.info = own.info;
+  mjs_setString(geom.meshname, "");
+}
+
 }  // namespace
 
 void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
-                const Eigen::Vector2d& ego_start_m) {
+                const Eigen::Vector2d& ego_start_m, int group) {
   mjsHField& field = *mjs_addHField(&scene);
   mjs_setName(field.element, kName);
   field.nrow = points_along(ground.size_m.y(), ground.wavelength_m);
@@ -81,13 +96,15 @@ void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
 
   mjsBody& world = *mjs_findBody(&scene, "world");
   const std::string material = material_of_floor(world);
-  mjsGeom& geom = *mjs_addGeom(&world, mjs_getSpecDefault(&scene));
+  mjsGeom& geom = *mjs_addGeom(&world, nullptr);
+  take_no_defaults(geom);
   mjs_setName(geom.element, kName);
   geom.type = mjGEOM_HFIELD;
   mjs_setString(geom.hfieldname, kName);
   Eigen::Map<Eigen::Vector3d>(geom.pos) << ground.centre_m.value_or(ego_start_m), 0;
   geom.contype = geom.conaffinity = 1;
-  if (!material.empty()) mjs_setString(geom.material, material.c_str());
+  geom.group = group;
+  mjs_setString(geom.material, material.c_str());
 }
 
 void raise_ground(Model& model, const scenario::RoughGround& ground, std::uint64_t scenario_seed) {

@@ -17,9 +17,10 @@ namespace lcs::sim {
 /// Height of the highest bumps, in standard deviations.
 inline constexpr double kHighestGround = 4;
 
-/// Adds the height field, still flat, with the material of the scene's first plane.
+/// Adds the height field, still flat, with the material of the scene's first plane, and with none
+/// of the scene's defaults. \param group of MuJoCo's, which is drawn.
 void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
-                const Eigen::Vector2d& ego_start_m);
+                const Eigen::Vector2d& ego_start_m, int group);
 
 /// Writes the heights into a model of that scene.
 void raise_ground(Model& model, const scenario::RoughGround& ground, std::uint64_t scenario_seed);

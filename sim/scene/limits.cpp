@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 #include <mujoco/mjxmacro.h>
-#include <strings.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <iterator>
-#include <limits>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -29,7 +26,7 @@ namespace fs = std::filesystem;
 using xml::Element;
 
 /// The range of an attribute that MuJoCo does not check, and whose excess the trial in a
-/// child process (sim/scene/trial.h) does not reveal.
+/// child process (sim/base/trial.h) does not reveal.
 struct Limit {
   std::string_view element, attribute;  // "nuser_*": all with this prefix
   double least, most;
@@ -68,32 +65,11 @@ constexpr int kMostHeightFieldSide = 2000;  // points; every image draws all of 
 constexpr input::FileKind kAssetFile{256 * input::kMebibyte,  // read into memory
                                      "give an image, mesh or height field of at most 256 MiB"};
 
-// Attributes with these prefixes are text, which may contain words like "inf" and "nan".
-constexpr std::array<std::string_view, 17> kTexts = {
-    "name", "class", "childclass", "file",   "texture", "material", "mesh",   "hfield",  "joint",
-    "site", "body",  "geom",       "target", "objname", "refname",  "tendon", "actuator"};
-
 // Lengths, m; limited to the size of a scene that the camera renders.
 constexpr std::array<std::string_view, 7> kLengths = {"pos",    "size",   "fromto", "vertex",
                                                       "refpos", "offset", "spacing"};
 
-// Lists of any length: MuJoCo silently drops a word that does not parse, and all words after it.
-constexpr std::array<std::string_view, 4> kNumberLists = {"vertex", "normal", "texcoord",
-                                                          "vertweight"};
-constexpr std::array<std::string_view, 2> kIndexLists = {"face", "vertid"};
-
-// Attributes whose words may begin with a digit: "2d", "10M".
-constexpr std::array<std::string_view, 3> kKinds = {"type", "gridlayout", "memory"};
-
 constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
-
-[[noreturn]] void refuse(const Element& e, const std::string& what) {
-  throw input::Error(xml::source_of(e), xml::tag(e) + ": " + what);
-}
-
-bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
 
 std::vector<std::string> words(const std::string& text) {
   std::istringstream stream(text);
@@ -106,34 +82,20 @@ std::optional<double> number(std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::infinity();
   return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-void check_words(const Element& e, std::string_view name, const std::string& text) {
-  const bool is_index = is_one_of(kIndexLists, name);
+[[noreturn]] void refuse(const Element& e, const std::string& what) {
+  throw input::Error(xml::source_of(e), xml::tag(e) + ": " + what);
+}
+
+void check_length(const Element& e, std::string_view name, const std::string& text) {
+  if (std::ranges::find(kLengths, name) == kLengths.end()) return;
   for (const std::string& word : words(text)) {
-    const auto complain = [&](const std::string& what) {
-      refuse(e, fmt::format("{} has '{}', {}", name, word.substr(0, kMostShown), what));
-    };
     const std::optional<double> value = number(word);
-    if (is_index && word.find_first_not_of("+-0123456789") != word.npos) {
-      complain("which is no integer; correct it");
-    }
-    // MuJoCo parses "12abc" as 12; "2d" is a keyword
-    const std::size_t first = std::min(word.find_first_not_of("+-."), word.size() - 1);
-    const bool begins_as_number =
-        std::isdigit(static_cast<unsigned char>(word[first])) && !is_one_of(kKinds, name);
-    if (!value && (begins_as_number || is_one_of(kNumberLists, name))) {
-      complain("which is no number; correct it");
-    }
-    const bool may_be_open = value && std::isinf(*value) && name.ends_with("range");
-    if (value && !std::isfinite(*value) && !may_be_open)
-      complain("and takes finite numbers alone; correct it");
-    if (value && std::abs(*value) > kMostExtent_m && is_one_of(kLengths, name)) {
-      complain(fmt::format("and a camera sees no farther than {:g} m; give a smaller number",
-                           kMostExtent_m));
-    }
+    if (!value || std::abs(*value) <= kMostExtent_m) continue;
+    refuse(e, fmt::format("{} has '{}', and a camera sees no farther than {:g} m; correct it", name,
+                          word.substr(0, kMostShown), kMostExtent_m));
   }
 }
 
@@ -153,45 +115,6 @@ void check_range(const Element& e, std::string_view name, const std::string& tex
   }
 }
 
-/// Checks the indices in the faces of a Wavefront file. MuJoCo reads a vertex from arbitrary memory
-/// for an index out of range, and the compiled model does not show it.
-void check_obj(const Element& e, const fs::path& file) {
-  constexpr std::array<std::string_view, 3> kLines = {"v", "vt", "vn"};
-  constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate", "normal"};
-  std::array<std::size_t, 3> counts{};
-  struct Face {
-    std::string text;
-    int line;
-    std::array<std::size_t, 3> counts;  // before the face; negative indices count back from these
-  };
-  std::vector<Face> faces;
-  input::InputFile input(file, kAssetFile, xml::source_of(e));
-  for (std::string line; input.next_line(line);) {
-    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    const std::string kind = line.substr(begin, line.find_first_of(" \t", begin) - begin);
-    for (std::size_t k = 0; k < kLines.size(); ++k) counts[k] += kind == kLines[k];
-    if (kind == "f") faces.push_back({line.substr(begin + 1), input.here().line, counts});
-  }
-  for (const Face& face : faces) {
-    for (const std::string& corner : words(face.text)) {
-      std::string_view rest = corner;
-      for (std::size_t k = 0; k < kLines.size(); ++k) {
-        const std::size_t slash = std::min(rest.find('/'), rest.size());
-        const std::string_view word = rest.substr(0, slash);
-        rest.remove_prefix(std::min(slash + 1, rest.size()));
-        if (word.empty() && k > 0 && counts[k] == 0) continue;
-        const double index = number(word).value_or(0);  // indices begin at 1
-        const double place = index < 0 ? static_cast<double>(face.counts[k]) + index : index - 1;
-        if (place >= 0 && place < static_cast<double>(counts[k])) continue;
-        refuse(e,
-               fmt::format(
-                   "'{}', line {}: '{}' names no {} of the file (there are {}); correct the file",
-                   file.string(), face.line, corner.substr(0, kMostShown), kNames[k], counts[k]));
-      }
-    }
-  }
-}
-
 /// \param file of an asset. MuJoCo would block on a pipe, and allocate any image size.
 void check_file(const Element& e, const fs::path& file) {
   const std::string bytes = input::InputFile(file, kAssetFile, xml::source_of(e)).bytes();
@@ -201,39 +124,41 @@ void check_file(const Element& e, const fs::path& file) {
                   "'{}' is {} x {} pixels, and can have {} million in all; choose a smaller one",
                   file.string(), size->width, size->height, kMostPixels / 1'000'000));
   }
-  // MuJoCo recognises the format by the last three characters
-  const std::string name = file.string();
-  if (::strcasecmp(name.c_str() + std::max<std::size_t>(name.size(), 3) - 3, "obj") != 0) return;
-  if (e.Attribute("face")) refuse(e, "it has a file and faces too; remove one of the two");
-  check_obj(e, file);
 }
 
-void require_finite(const char*, const void*, std::int64_t) {}  // integer arrays
+void require_finite(std::string_view, const void*, std::int64_t) {}  // integer arrays
 /// \throws MujocoError
-void require_finite(const char* array, const float* values, std::int64_t count) {
-  if (std::all_of(values, values + count, [](float f) { return std::isfinite(f); })) return;
-  throw MujocoError(fmt::format("a file has a number that is not finite, for {}", array));
+template <std::floating_point T>
+void require_finite(std::string_view array, const T* values, std::int64_t count) {
+  const bool may_be_open = array.ends_with("range");
+  if (std::all_of(values, values + count, [&](T value) {
+        return std::isfinite(value) || (may_be_open && !std::isnan(value));
+      })) {
+    return;
+  }
+  throw MujocoError(fmt::format("a number is not finite, for {}", array));
 }
 
 }  // namespace
 
 void check_limits(Element& root) {
   xml::for_each(root, [](const Element& e) {
-    const Element* parent = e.Parent() ? e.Parent()->ToElement() : nullptr;
-    const std::string_view section = parent ? parent->Name() : "";
     for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
-      const std::string_view name = a->Name();
-      if (section == "asset" && name.starts_with("file")) check_file(e, a->Value());
-      check_range(e, name, a->Value());
-      const bool is_text =
-          std::ranges::any_of(kTexts, [&](auto text) { return name.starts_with(text); });
-      const bool is_truth = section == "composite" && name == "texcoord";
-      if (is_text || is_truth || name.find(':') != name.npos ||
-          e.Name() == std::string_view("text"))
-        continue;
-      check_words(e, name, a->Value());
+      if (std::string_view(a->Name()).starts_with("file")) check_file(e, a->Value());
+      check_range(e, a->Name(), a->Value());
+      check_length(e, a->Name(), a->Value());
     }
   });
+}
+
+bool has_endless(const Element& e) {
+  for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
+    if (std::string_view(a->Name()).ends_with("range")) continue;
+    for (const std::string& word : words(a->Value())) {
+      if (!std::isfinite(number(word).value_or(0))) return true;
+    }
+  }
+  return false;
 }
 
 void check_compiled(const mjModel& m) {

@@ -64,9 +64,7 @@ std::string take_warning() {
 Model::Model(mjSpec& spec) {
   install_mujoco_handlers();
   model_.reset(call_mujoco([&] { return mj_compile(&spec, nullptr); }));
-  const std::string warning = take_warning();
   if (!model_) throw MujocoError(mjs_getError(&spec));
-  if (!warning.empty()) throw MujocoError(warning);
   check_compiled(*model_);
   data_.reset(call_mujoco([&] { return mj_makeData(model_.get()); }));
   if (!data_) throw MujocoError("could not allocate the state of the scene");

@@ -1,6 +1,5 @@
 /// \file
-/// A compiled MuJoCo model and its state under RAII, with MuJoCo's errors and warnings as
-/// exceptions.
+/// A compiled MuJoCo model and its state under RAII, with MuJoCo's errors as exceptions.
 #pragma once
 
 #include <memory>
@@ -61,7 +60,7 @@ struct DataDeleter {
 /// Model and data, always together. Movable; moving keeps the addresses of `m()` and `d()`.
 class Model {
  public:
-  /// \throws MujocoError with MuJoCo's message.
+  /// \throws MujocoError with MuJoCo's message; warnings remain in `spec` and for `take_warning`.
   explicit Model(mjSpec& spec);
 
   mjModel& m() { return *model_; }

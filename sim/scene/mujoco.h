@@ -23,6 +23,16 @@ inline double ray(const mjModel& m, const mjData& d, const double from[3],
   return distance;
 }
 
+/// The same to one geom of any type.
+inline double ray_geom(const mjModel& m, const mjData& d, int geom, const double from[3],
+                       const double direction[3]) {
+  const int type = m.geom_type[geom];
+  if (type == mjGEOM_MESH) return mj_rayMesh(&m, &d, geom, from, direction, nullptr);
+  if (type == mjGEOM_HFIELD) return mj_rayHfield(&m, &d, geom, from, direction, nullptr);
+  return mju_rayGeom(d.geom_xpos + 3 * geom, d.geom_xmat + 9 * geom, m.geom_size + 3 * geom, from,
+                     direction, type, nullptr);
+}
+
 /// Calls `found(distance, point, normal)` for each contact that MuJoCo's collision function finds
 /// between two geoms. The type of `function` determines its output type (mjContact, later
 /// mjPreContact) and whether the data is const.

@@ -83,7 +83,10 @@ void add_actor(mjSpec& scene, const Actor& actor, ComposedScene& composed) {
   const Fragment fragment = actor_fragment(actor, composed.reader);
   const std::string prefix = actor.name + "/";
   composed.actor_sizes_m.emplace_back(fragment.size_m);
-  composed.is_frozen.push_back(fragment.is_frozen);
+  if (fragment.is_frozen) {
+    composed.frozen.push_back(
+        fmt::format("actor '{}' keeps the pose '{}'", actor.name, actor.pose));
+  }
   mjsBody& body = attach(scene, fragment, prefix);
   mjs_setName(body.element, actor.name.c_str());  // the object's name
   body.mocap = 1;
@@ -117,12 +120,48 @@ void add_actors(mjSpec& scene, const Scenario& scenario, ComposedScene& composed
     if (actor.body) {
       make_mocap(scene, actor);
       composed.actor_sizes_m.emplace_back();
-      composed.is_frozen.push_back(false);
     } else {
       add_actor(scene, actor, composed);
     }
     composed.actor_bodies.push_back(object);
   }
+}
+
+/// Whether a joint is the only one of a body and of all in it, and free: a thing that moves by the
+/// physics.
+bool is_of_loose_thing(const mjsJoint& joint) {
+  const mjsBody& body = *mjs_getParent(joint.element);
+  int count = 0;
+  for_each_in(body, mjOBJ_JOINT, true, [&](mjsElement*) { ++count; });
+  return joint.type == mjJNT_FREE && count == 1;
+}
+
+/// Takes the scene's keyframes away, whose states lack the rover's joints, after the use of one.
+void pose_scene(mjSpec& scene, const Scenario& scenario, ComposedScene& composed) {
+  if (!scenario.pose.empty() &&
+      freeze(
+          scene, scenario.pose,
+          [](mjsElement* joint) { return !is_of_loose_thing(*mjs_asJoint(joint)); },
+          "the scene has", scenario.scene_source)) {
+    composed.frozen.push_back(fmt::format("the scene keeps the pose '{}'", scenario.pose));
+  }
+  for_each(scene, mjOBJ_KEY, [&](mjsElement* e) { mjs_delete(&scene, e); });
+}
+
+/// Names the bodies of the worldbody that move and have no name by their place, from 1 on.
+void name_bodies(mjSpec& scene, ComposedScene& composed) {
+  int place = 0;
+  for_each_in(world_of(scene), mjOBJ_BODY, false, [&](mjsElement* e) {
+    ++place;
+    if (!name_of(e).empty() || !mjs_firstChild(mjs_asBody(e), mjOBJ_JOINT, 1)) return;
+    std::string name = fmt::format("body[{}]", place);
+    while (find(scene, mjOBJ_BODY, name)) name += "'";
+    composed.named.emplace_back(input::Error(composed.reader.source(e),
+                                             "a body that moves has no name, and is called '{}'",
+                                             name)
+                                    .what());
+    mjs_setName(e, name.c_str());
+  });
 }
 
 /// Axes of a MuJoCo camera (x right, y up, looking along -z) in B, from roll, pitch and yaw.
@@ -153,13 +192,23 @@ ComposedScene compose(const Scenario& scenario) {
   mjSpec& scene = *composed.spec;
   mjs_setDeepCopy(&scene, 1);  // so that a fragment ends with its file
   try {
+    pose_scene(scene, scenario, composed);
+    name_bodies(scene, composed);
     add_actors(scene, scenario, composed);
-    if (scenario.ground) add_ground(scene, *scenario.ground, scenario.ego.start_m);
+    if (scenario.ground) {
+      const std::vector<int>& drawn = scenario.camera.groups;
+      add_ground(scene, *scenario.ground, scenario.ego.start_m, drawn.empty() ? 0 : drawn.front());
+    }
     const Fragment rover = rover_fragment(scenario.ego, composed.reader);
     add_camera(attach(scene, rover, kEgoPrefix), scenario.camera);
+    if (rover.is_frozen) {
+      composed.frozen.push_back(fmt::format("the rover keeps the pose '{}'", scenario.ego.pose));
+    }
+    composed.loose_joints = rover.loose_joints;
   } catch (const MujocoError& e) {
     throw composed.reader.refusal(e.what(), &scene);
   }
+  composed.reader.note_warnings(&scene);
   return composed;
 }
 

@@ -35,7 +35,9 @@ struct ComposedScene {
   std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
   /// Size of each actor, [length, width, height] in m; absent for a body of the scene.
   std::vector<std::optional<Eigen::Vector3d>> actor_sizes_m;
-  std::vector<bool> is_frozen;  ///< each actor: its joints keep `Actor::pose`
+  std::vector<std::string> frozen;  ///< what keeps a pose: "actor 'dog' keeps the pose 'home'"
+  std::vector<std::string> loose_joints;  ///< of the rover: those with a motor, beside the drive
+  std::vector<std::string> named;         ///< bodies without a name, with the one that they got
   std::vector<PictureTexture> pictures;
 
   /// Source of a named element; the scene's file without one.

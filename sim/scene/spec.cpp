@@ -36,18 +36,15 @@ void remove_sections(Element& root, std::initializer_list<const char*> kinds) {
   }
 }
 
-/// Removes settings that would change other bodies, names, the rover's mass, or the search path of
-/// files, and keyframes of a scene, whose states lack the rover's joints.
+/// Removes settings that would change other bodies, names, or the rover's mass.
 void prepare(Element& root, SpecReader::Part part) {
   for (Element* c = root.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
     for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",
-                            "boundmass", "boundinertia", "strippath"}) {
+                            "boundmass", "boundinertia"}) {
       c->DeleteAttribute(key);
     }
   }
-  if (part == SpecReader::Part::scene) {
-    remove_sections(root, {"keyframe"});
-  } else {
+  if (part == SpecReader::Part::fragment) {
     remove_sections(root, {"option", "size", "visual", "statistic"});
   }
   check_limits(root);
@@ -103,8 +100,8 @@ Pose pose_in_frame(mjsElement* e) {
 
 /// A document's text, from the next free line on.
 std::string SpecReader::numbered(Element& root) {
-  std::vector<std::string> tags;
-  xml::for_each(root, [&](const Element& e) { tags.push_back(xml::tag(e)); });
+  std::vector<std::pair<std::string, bool>> tags;
+  xml::for_each(root, [&](const Element& e) { tags.emplace_back(xml::tag(e), has_endless(e)); });
   const std::vector<input::Source> sources = xml::take_sources(root);
   tinyxml2::XMLPrinter printer;
   root.Accept(&printer);
@@ -119,7 +116,7 @@ std::string SpecReader::numbered(Element& root) {
   }
   std::size_t i = 0;
   xml::for_each(*again.RootElement(), [&](const Element& e) {
-    origins_.emplace(e.GetLineNum(), Origin{sources[i], tags[i]});
+    origins_.emplace(e.GetLineNum(), Origin{sources[i], tags[i].first, tags[i].second});
     ++i;
   });
   lines_ = static_cast<int>(std::ranges::count(text, '\n')) + 1;
@@ -172,9 +169,8 @@ Spec SpecReader::read(const std::filesystem::path& file, const input::Source& wh
   } catch (const MujocoError& e) {
     throw refusal(e.what(), nullptr);
   }
-  const std::string warning = take_warning();
   if (!spec) throw refusal(said.data(), nullptr);
-  if (!warning.empty()) throw refusal(warning, spec.get());
+  note_warnings(spec.get());
   return spec;
 }
 
@@ -206,18 +202,55 @@ void SpecReader::refuse(const mjsElement* element, std::string what) const {
   throw input::Error(source(element), what);
 }
 
-input::Error SpecReader::refusal(const std::string& said, const mjSpec* spec) const {
+input::Source SpecReader::source_of_tag(std::string_view tag) const {
+  const auto found =
+      std::ranges::find_if(origins_, [&](const auto& o) { return o.second.tag == tag; });
+  return found == origins_.end() ? source(nullptr) : found->second.source;
+}
+
+/// The element that a message of MuJoCo cites by its line, or else by its name in quotes.
+const SpecReader::Origin* SpecReader::origin_in(const std::string& said, const mjSpec* spec) const {
   const Origin* found = at(line_in(said));
-  for (const mjtObj type : {mjOBJ_TEXTURE, mjOBJ_HFIELD, mjOBJ_SKIN}) {  // by `check_compiled`
-    const std::string before = fmt::format("{} '", mju_type2Str(type));
-    const std::size_t begin = said.find(before);
-    if (found || !spec || begin == said.npos) continue;
-    const std::string name = said.substr(begin + before.size());
-    found = origin(find(*spec, type, name.substr(0, name.find('\''))));
+  const bool is_endless = said.find("is not finite") != said.npos;  // of `check_compiled`
+  for (const auto& [line, of] : origins_) {
+    if (!found && is_endless && of.has_endless) found = &of;
   }
+  std::size_t end = 0;
+  for (std::size_t begin = said.find('\''); !found && begin != said.npos;
+       begin = said.find('\'', end + 1)) {
+    end = std::min(said.find('\'', begin + 1), said.size());
+    const std::string name = said.substr(begin + 1, end - begin - 1);
+    for (int type = mjOBJ_BODY; spec && !found && !name.empty() && type < mjNOBJECT; ++type) {
+      found = origin(find(*spec, static_cast<mjtObj>(type), name));
+    }
+    const std::string named = fmt::format(" name=\"{}\">", name);  // as in URDF, without lines
+    const auto tagged = std::ranges::find_if(
+        origins_, [&](const auto& o) { return o.second.tag.ends_with(named); });
+    if (!found && tagged != origins_.end()) found = &tagged->second;
+  }
+  return found;
+}
+
+input::Error SpecReader::told(const std::string& said, const mjSpec* spec,
+                              std::string_view verb) const {
+  const Origin* found = origin_in(said, spec);
   return {
       found ? found->source : source(nullptr),
-      fmt::format("MuJoCo refuses {}: {}", found ? found->tag : "the scene", in_one_line(said))};
+      fmt::format("MuJoCo {} {}: {}", verb, found ? found->tag : "the scene", in_one_line(said))};
+}
+
+input::Error SpecReader::refusal(const std::string& said, const mjSpec* spec) const {
+  return told(said, spec, "refuses");
+}
+
+void SpecReader::note_warnings(const mjSpec* spec) {
+  std::vector<std::string> said{take_warning()};
+  for (int i = 0; i < mjs_numWarnings(spec); ++i) said.emplace_back(mjs_getWarning(spec, i));
+  for (const std::string& warning : said) {
+    if (warning.empty()) continue;
+    const std::string line = told(warning, spec, "warns of").what();
+    if (std::ranges::find(warnings_, line) == warnings_.end()) warnings_.push_back(line);
+  }
 }
 
 std::string_view name_of(const mjsElement* element) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/base/pose.h"
 #include "sim/scene/mujoco.h"
@@ -43,23 +44,35 @@ class SpecReader {
   /// \throws input::Error at an element; "TAG" in the text is replaced by its tag.
   [[noreturn]] void refuse(const mjsElement* element, std::string what) const;
 
+  /// Source of the first element of that tag, "<option>"; the first file without one.
+  input::Source source_of_tag(std::string_view tag) const;
+
   /// MuJoCo's message as an error that names the user's file, line and element.
   input::Error refusal(const std::string& said, const mjSpec* spec) const;
+
+  /// Keeps what MuJoCo has warned of, in this thread and in `spec`, once each.
+  void note_warnings(const mjSpec* spec);
+  /// Each with file, line and element.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Origin {
     input::Source source;
-    std::string tag;  ///< `<geom name="wall">`
+    std::string tag;           ///< `<geom name="wall">`
+    bool has_endless = false;  ///< it may have a number that is not finite
   };
   std::string numbered(xml::Element& root);
   void add_models(xml::Element& root, Part part, const Edit& edit, mjVFS& vfs, int depth);
   const Origin* at(int line) const;
   const Origin* origin(const mjsElement* element) const;
+  const Origin* origin_in(const std::string& said, const mjSpec* spec) const;
+  input::Error told(const std::string& said, const mjSpec* spec, std::string_view verb) const;
 
   std::filesystem::path first_file_;
   std::map<int, Origin> origins_;  ///< by line
   int lines_ = 0;                  ///< number of the last line of all files
   int models_ = 0;                 ///< number of files that are given to MuJoCo as <model>
+  std::vector<std::string> warnings_;
 };
 
 /// The name of an element; "" without one.

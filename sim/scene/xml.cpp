@@ -12,17 +12,12 @@
 namespace lcs::sim::xml {
 namespace {
 
-/// Size limits of MJCF text with mesh vertices, and of assets: images, meshes, height fields.
+/// The size limit is of MJCF text with mesh vertices.
 constexpr input::FileKind kModelFile{64 * input::kMebibyte, "give the path of an MJCF file"};
-constexpr input::FileKind kNamedFile{input::kGibibyte, "give an image, mesh, hfield or model"};
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLNode;
-
-// Attributes that contain a file path.
-constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "fileleft", "fileup",
-                                               "filedown", "filefront", "fileback"};
 
 // Contains "LINE FILE" of an element's source; no user's attribute has this name.
 constexpr const char* kSource = "lcs:source";
@@ -47,8 +42,9 @@ Document parse(const fs::path& file, const input::Source& where) {
   }
   const Element* root = document->RootElement();
   const std::string_view kind = root ? root->Name() : "";
-  if (kind != "mujoco" && kind != "mujocoinclude") {
-    fail(file, root ? root->GetLineNum() : 1, "is not MJCF: its root element must be <mujoco>");
+  if (kind != "mujoco" && kind != "mujocoinclude" && kind != "robot") {
+    fail(file, root ? root->GetLineNum() : 1,
+         "is not MJCF: its root element must be <mujoco> (or <robot>, in URDF)");
   }
   for_each(*document->RootElement(), [&](Element& e) {
     e.SetAttribute(kSource, fmt::format("{} {}", e.GetLineNum(), file.string()).c_str());
@@ -56,47 +52,47 @@ Document parse(const fs::path& file, const input::Source& where) {
   return document;
 }
 
-/// The folders that a document's file names are relative to.
-struct Folders {
-  fs::path base, meshes, textures;
-  bool strip = false;  ///< drop the folders from file names
-};
-
-Folders folders_of(const Element& root, const fs::path& file) {
-  Folders folders{fs::absolute(file).parent_path(), "", ""};
-  for (const Element* c = root.FirstChildElement("compiler"); c;
-       c = c->NextSiblingElement("compiler")) {
-    if (const char* both = c->Attribute("assetdir")) folders.meshes = folders.textures = both;
-    if (const char* dir = c->Attribute("meshdir")) folders.meshes = dir;
-    if (const char* dir = c->Attribute("texturedir")) folders.textures = dir;
-    if (const char* strip = c->Attribute("strippath")) folders.strip = strip == std::string("true");
-  }
-  return folders;
-}
-
-void make_absolute(Element& root, const fs::path& file) {
-  const Folders folders = folders_of(root, file);
-  const auto resolve = [&](Element& e) {
-    const bool picture = is_kind(e, "texture");
-    for (const char* key : kFiles) {
-      const char* value = e.Attribute(key);
-      if (!value) continue;
-      const fs::path name = folders.strip ? fs::path(value).filename() : fs::path(value);
-      const fs::path path = folders.base / (picture ? folders.textures : folders.meshes) / name;
-      const std::string normal = path.lexically_normal().string();
-      std::error_code error;
-      if (!fs::exists(path, error) && !error) {
-        throw input::Error(source_of(e),
-                           "file '" + normal + "' is missing; put it there or correct the name");
+/// Makes the names of files absolute paths, of the first place of these where there is a file: from
+/// the folder of the main file on, and from that of the included file that names it. MuJoCo looks
+/// for models without the folders of <compiler>, and for other files by them or, as for skins,
+/// without.
+void make_absolute(Element& root, const fs::path& main_file) {
+  fs::path meshes, textures;
+  bool is_stripped = false;
+  for_each(root, [&](Element& c) {
+    if (!is_kind(c, "compiler")) return;
+    if (const char* both = c.Attribute("assetdir")) meshes = textures = both;
+    if (const char* dir = c.Attribute("meshdir")) meshes = dir;
+    if (const char* dir = c.Attribute("texturedir")) textures = dir;
+    if (const char* strip = c.Attribute("strippath")) is_stripped = strip == std::string("true");
+    for (const char* key : {"assetdir", "meshdir", "texturedir", "strippath"})
+      c.DeleteAttribute(key);
+  });
+  for_each(root, [&](Element& e) {
+    const fs::path by = is_kind(e, "model")     ? fs::path()
+                        : is_kind(e, "texture") ? textures
+                                                : meshes;
+    const fs::path base = fs::absolute(main_file).parent_path();
+    const fs::path own = fs::absolute(source_of(e).file).parent_path();
+    for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
+      if (!std::string_view(a->Name()).starts_with("file")) continue;
+      const fs::path value = a->Value(), name = is_stripped ? value.filename() : value;
+      const std::array<fs::path, 4> places{base / by / name, own / by / name, base / name,
+                                           own / name};
+      const auto found = std::ranges::find_if(places, [](const fs::path& p) {
+        std::error_code error;
+        return fs::exists(p, error) || error;
+      });
+      if (found == places.end()) {
+        const bool is_package = value.string().starts_with("package:");
+        throw input::Error(
+            source_of(e), "file '{}' is missing; {}", places.front().lexically_normal().string(),
+            is_package ? "MuJoCo knows no packages: name it from this file's folder on"
+                       : "put it there or correct the name");
       }
-      // MuJoCo opens the file itself, and would block on a pipe.
-      const input::InputFile refused_if_unfit(normal, kNamedFile, source_of(e));
-      e.SetAttribute(key, normal.c_str());
+      e.SetAttribute(a->Name(), found->lexically_normal().c_str());
     }
-  };
-  for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
-    for_each(*s, resolve);
-  }
+  });
 }
 
 /// \param left number of files that may still be included.
@@ -114,8 +110,9 @@ void expand_includes(Element& parent, const fs::path& main_file, const fs::path&
     const input::Source here{file.string(), e->GetLineNum()};
     if (depth >= kDeepest) throw input::Error(here, "includes are nested too deep");
     if (left-- == 0) throw input::Error(here, "more files are included than a scene has");
-    // relative to the main file, as in MuJoCo
-    const fs::path path = main_file.parent_path() / attribute(*e, "file");
+    // relative to the main file or else to this one, as in MuJoCo
+    fs::path path = main_file.parent_path() / attribute(*e, "file");
+    if (!fs::exists(path)) path = file.parent_path() / attribute(*e, "file");
     const Document included = parse(path, here);
     expand_includes(*included->RootElement(), main_file, path, depth + 1, left);
     XMLNode* after = e;

@@ -18,10 +18,10 @@ namespace lcs::sim::xml {
 using Document = std::unique_ptr<tinyxml2::XMLDocument>;
 using Element = tinyxml2::XMLElement;
 
-/// Reads an MJCF file. Expands its `<include>`s and makes all file names absolute paths (so that
-/// `meshdir` and `texturedir` are no longer needed). Each element and its copies keep their source
-/// file and line. \param where cited in the error if the file itself cannot be opened.
-/// \throws input::Error with the MJCF file and line: malformed XML, a missing file.
+/// Reads an MJCF or URDF file. Expands its `<include>`s and makes all file names absolute paths, of
+/// the places where MuJoCo finds them. Each element and its copies keep their source file and line.
+/// \param where cited in the error if the file itself cannot be opened. \throws input::Error with
+/// the MJCF file and line: malformed XML, a missing file.
 Document load(const std::filesystem::path& file, const input::Source& where);
 
 /// Calls `visit` for an element and all its descendants.

@@ -124,9 +124,9 @@ class WheeledRover : public Rover {
     const Footing under = footing(model);
     place(d, under.height_m + kDrop_m);
     std::fill_n(d.ctrl, m.nu, 0.0);
-    m.opt.timestep = kSettlingStep_s;
+    const int steps = static_cast<int>(std::ceil(kSettling_s / m.opt.timestep));
     call_mujoco([&] {
-      for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
+      for (int i = 0; i < steps; ++i) mj_step(&m, &d);
     });
 
     if (d.qpos[base_.qpos + 2] < under.height_m - sunk_m_) refuse_to_fall(model, under.geom);
@@ -165,7 +165,6 @@ class WheeledRover : public Rover {
   static constexpr double kDrop_m = 0.01;
   static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
   static constexpr double kSettling_s = 1.0;
-  static constexpr double kSettlingStep_s = 0.002;
   static constexpr double kSunk_m = 0.1;  // the wheel radius; between bumps their height is added
 
   static void check(const scenario::Scenario& scenario) {

@@ -25,6 +25,11 @@ enum class Warning : std::uint8_t {
   translucent_geoms,
   undrawn_parts,
   joints_frozen,
+  options_replaced,
+  mujoco_warnings,
+  joints_loose,
+  bodies_named,
+  coplanar_faces,
   coarse_shutter,
   coarse_events,
 };
@@ -35,7 +40,7 @@ struct WarningText {
 };
 
 /// In the order of `Warning`.
-inline constexpr std::array<WarningText, 15> kWarnings{{
+inline constexpr std::array<WarningText, 20> kWarnings{{
     {"rover_below_ground", "give the ground contacts (contype), or change its start or its path"},
     {"rover_tipped", "make it slower, or the ground smoother"},
     {"rover_collisions", "change its start or its path, or move the obstacle"},
@@ -50,6 +55,11 @@ inline constexpr std::array<WarningText, 15> kWarnings{{
      "a pixel has one true surface; give it alpha 1, or 0 for a geom that is not drawn"},
     {"undrawn_parts", "only geoms have a truth; give the body geoms for the parts to be seen"},
     {"joints_frozen", "its trajectory moves it as one rigid body, whose limbs do not step"},
+    {"options_replaced", "bodies may move otherwise than in MuJoCo; give the option that is used"},
+    {"mujoco_warnings", "MuJoCo goes on all the same"},
+    {"joints_loose", "give ego.pose, a keyframe or zero, if they should stay"},
+    {"bodies_named", "give it a name of its own"},
+    {"coplanar_faces", "the picture shows now one and now the other; move one by a millimetre"},
     {"coarse_shutter", "rows show steps; shorten the shutter's times, or slow the motion"},
     {"coarse_events", "events come in bursts; raise camera.rate, or slow the motion"},
 }};

@@ -20,8 +20,10 @@ constexpr double kLeastDepth_m = 0.02;
 constexpr double kStep_m = 0.2;
 // The rover's origin may be this far below a bump between its wheels; no wheel is larger.
 constexpr double kSunk_m = 0.1;
-// Floors this far above the rover's start are tables and bridges, which the rover may be under.
+// Planes this far above the rover's start are tables and bridges, which the rover may be under.
 constexpr double kOverhead_m = 0.5;
+// Rays down to floors begin here, above the highest that a camera sees.
+constexpr double kAbove_m = 1e4;
 // No rover recovers from this tilt, and no road is as steep.
 constexpr double kTipped_rad = std::numbers::pi / 4;
 // A contact of the wheels with a flatter normal is with a wall. It is steeper than a step of half
@@ -54,28 +56,6 @@ std::string name_of(const Model& model, int geom) {
   if (!name.empty()) return fmt::format("the setting's geom '{}'", name);
   return fmt::format("the setting's geom without a name round {}",
                      at_place(model.geom_pose(geom).p));
-}
-
-/// Height of a height field at a place in W; absent outside the field.
-std::optional<double> field_m(const Model& model, int geom, const Vector3d& at) {
-  const mjModel& m = model.m();
-  const int field = m.geom_dataid[geom];
-  const mjtNum* size = m.hfield_size + 4 * field;
-  const Pose T_WF = model.geom_pose(geom);
-  const Vector3d p = T_WF.inverse() * Vector3d(at.x(), at.y(), T_WF.p.z());
-  const int rows = m.hfield_nrow[field], columns = m.hfield_ncol[field];
-  const double column = (p.x() / size[0] + 1) / 2 * (columns - 1);
-  const double row = (p.y() / size[1] + 1) / 2 * (rows - 1);
-  if (!(column >= 0 && column <= columns - 1 && row >= 0 && row <= rows - 1)) return std::nullopt;
-  const auto height = [&](double r, double c) {
-    const int i = std::min(static_cast<int>(r), rows - 1);
-    const int j = std::min(static_cast<int>(c), columns - 1);
-    return static_cast<double>(m.hfield_data[m.hfield_adr[field] + i * columns + j]);
-  };
-  const double r = row - std::floor(row), c = column - std::floor(column);
-  const double share = (1 - r) * ((1 - c) * height(row, column) + c * height(row, column + 1)) +
-                       r * ((1 - c) * height(row + 1, column) + c * height(row + 1, column + 1));
-  return T_WF.p.z() + size[2] * share;
 }
 
 }  // namespace
@@ -268,20 +248,12 @@ void Watch::note_contacts(const Model& model, std::int64_t t_ns) {
 double Watch::floor_m(const Model& model, const Vector3d& at) const {
   std::optional<double> highest_m;
   for (const int geom : floors_) {
-    std::optional<double> height_m;
-    if (!is_plane(model.m(), geom)) {
-      height_m = field_m(model, geom, at);
-    } else {
-      const Pose T_WP = model.geom_pose(geom);
-      const double z =
-          T_WP.p.z() - T_WP.R.col(2).head<2>().dot((at - T_WP.p).head<2>()) / T_WP.R(2, 2);
-      const Vector3d on_P = T_WP.inverse() * Vector3d(at.x(), at.y(), z);
-      const double* half_m = model.m().geom_size + 3 * geom;
-      const auto reaches = [&](int i) { return half_m[i] <= 0 || std::abs(on_P[i]) <= half_m[i]; };
-      if (reaches(0) && reaches(1)) height_m = z;
-    }
-    if (height_m && *height_m < start_m_ + kOverhead_m) {
-      highest_m = std::max(highest_m.value_or(*height_m), *height_m);
+    const Vector3d above(at.x(), at.y(), kAbove_m), down = -Vector3d::UnitZ();
+    const double way_m = mj::ray_geom(model.m(), model.d(), geom, above.data(), down.data());
+    const double height_m = kAbove_m - way_m;
+    const bool may_be_bridge = is_plane(model.m(), geom);
+    if (way_m >= 0 && (!may_be_bridge || height_m < start_m_ + kOverhead_m)) {
+      highest_m = std::max(highest_m.value_or(height_m), height_m);
     }
   }
   return highest_m.value_or(lowest_m_);

@@ -16,16 +16,17 @@
 #include <system_error>
 
 #include "sim/base/rotation.h"
+#include "sim/base/trial.h"
 #include "sim/pictures/picture_file.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
 #include "sim/scene/texture.h"
-#include "sim/scene/trial.h"
+#include "sim/world/coplanar.h"
 
 namespace lcs::sim {
 namespace {
 
-constexpr std::int64_t kLongestStep_ns = 2'000'000;
+constexpr double kLongestStep_s = 0.002;
 constexpr double kMoves_m = 1e-7;  // least step of an actor that moves
 constexpr double kActorInside_m =
     0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
@@ -65,9 +66,10 @@ std::string reason_of(const std::string& crash) {
          "raise ulimit -v where that is set";
 }
 
-Model compile(const ComposedScene& composed) {
+Model compile(ComposedScene& composed) {
   try {
     Model model(*composed.spec);
+    composed.reader.note_warnings(composed.spec.get());
     check_extent(composed, model);
     return model;
   } catch (const MujocoError& e) {
@@ -185,13 +187,16 @@ std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
   return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
 }
 
-/// Loads a scene in a child process first (sim/scene/trial.h), and here only if the child survives.
+/// Loads a scene in a child process first (sim/base/trial.h), and here only if the child survives.
 /// The child takes as much processor time as the load itself.
 World::Loaded World::load(const scenario::Scenario& scenario) {
   // MuJoCo holds its own lock during a load: no other thread may fork then
   static std::mutex loading;
   const std::lock_guard lock(loading);
-  const Trial trial = try_in_child([&] { compile(compose(scenario)); });
+  const Trial trial = try_in_child([&] {
+    ComposedScene composed = compose(scenario);
+    compile(composed);
+  });
   if (!trial.crash.empty()) {
     throw input::Error({scenario.scene.string(), 0}, reason_of(trial.crash));
   }
@@ -238,13 +243,14 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
 void World::set_options() {
   mjOption& option = model_.m().opt;
   option.integrator = mjINT_EULER;
+  option.timestep = std::min(option.timestep, kLongestStep_s);
   option.disableflags &= ~(mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
   option.disableflags |= mjDSBL_SENSOR;  // the IMU is calculated from the motion of its site
   if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // halves the run time
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
   if (!upright) {
-    throw input::Error({scenario_.scene.string(), 0},
+    throw input::Error(composed_.reader.source_of_tag("<option>"),
                        "gravity must point along -z of the world; correct <option gravity>");
   }
   gravity_mps2_ = option.disableflags & mjDSBL_GRAVITY ? 0 : -g[2];
@@ -256,6 +262,7 @@ void World::find_objects() {
     throw input::Error(composed_.source(mjOBJ_BODY, body), what);
   };
   object_bodies_ = {0};
+  std::vector<std::string> articulated;
   std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
   for (int body = 1; body < m.nbody; ++body) {
     const auto b = static_cast<std::size_t>(body);
@@ -263,20 +270,23 @@ void World::find_objects() {
     const bool moves = m.body_dofnum[body] > 0;
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
-      if (moves && object_of_body[b] >= 0) {
-        refuse(name, fmt::format("body '{}' has a joint inside another body; an object moves as "
-                                 "one: take the joint away, or make it a body of the worldbody",
-                                 name));
-      }
+      if (moves && object_of_body[b] >= 0) articulated.push_back(name);
     } else if (name == kEgoBody) {
       object_of_body[b] = -1;
     } else if (!name.empty()) {
       object_of_body[b] = static_cast<int>(object_bodies_.size());
       objects_.push_back({object_of_body[b], name});
       object_bodies_.push_back(body);
-    } else if (moves) {
-      refuse("", "a body of the worldbody that can move needs a name; give it one");
     }
+  }
+  if (!articulated.empty()) {
+    const std::string more =
+        articulated.size() > 1 ? fmt::format(" (and {} more)", articulated.size() - 1) : "";
+    refuse(articulated.front(),
+           fmt::format("body '{}'{} has a joint inside another body, and an object moves as one: "
+                       "give the scenario a pose, a keyframe of the scene or zero, that its joints "
+                       "keep; or make it a body of the worldbody",
+                       articulated.front(), more));
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const int object = object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])];
@@ -358,7 +368,9 @@ void World::begin_watch(WrongStart wrong_start) {
     if (is_actor) named.back().size_m = composed_.actor_sizes_m[static_cast<std::size_t>(actor)];
   }
   watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_, is_drawn_);
+  note_load();
   note_looks(drawables);
+  note_coplanar();
   for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
     const bool is_rover = meeting.traveller == 0;
     const bool is_inside =
@@ -372,6 +384,60 @@ void World::begin_watch(WrongStart wrong_start) {
     if (wrong_start == WrongStart::refused) throw error;
     wrong_at_start_.emplace_back(error.what());
     watch_->pass_over(meeting);
+  }
+}
+
+/// Warns of what MuJoCo warned of, and of the scene's options that are replaced.
+void World::note_load() {
+  for (const std::string& what : composed_.reader.warnings()) {
+    warnings().add(Warning::mujoco_warnings, what);
+  }
+  for (const std::string& what : composed_.frozen) warnings().add(Warning::joints_frozen, what);
+  for (const std::string& what : composed_.named) warnings().add(Warning::bodies_named, what);
+  for (const std::string& what : composed_.loose_joints) {
+    warnings().add(Warning::joints_loose,
+                   fmt::format("the rover's joint '{}' is loose: its motor gets no command", what));
+  }
+  const mjOption& asked = composed_.spec->option;
+  const auto replaced = [&](const std::string& what) {
+    warnings().add(Warning::options_replaced,
+                   input::Error(composed_.reader.source_of_tag("<option>"), what).what());
+  };
+  if (asked.timestep > kLongestStep_s) {
+    replaced(fmt::format("the scene's timestep of {:g} ms is replaced by {:g} ms",
+                         1e3 * asked.timestep, 1e3 * kLongestStep_s));
+  }
+  if (asked.integrator != mjINT_EULER) replaced("the scene's integrator is replaced by Euler's");
+  for (int flag = 0; flag < mjNDISABLE; ++flag) {
+    if (!(asked.disableflags & ~model_.m().opt.disableflags & 1 << flag)) continue;
+    replaced(fmt::format("the scene disables '{}', which a drive needs; it is enabled",
+                         mjDISABLESTRING[flag]));
+  }
+}
+
+/// Warns of surfaces in one place: of two bodies, or of floors that look different. Other parts of
+/// the setting, as notices over each other on a wall, differ in few pixels and in no label.
+void World::note_coplanar() {
+  const mjModel& m = model_.m();
+  const auto cited = [&](int geom) -> std::string {
+    const mjsElement* element = nullptr;
+    for_each(*composed_.spec, mjOBJ_GEOM, [&](mjsElement* e) {
+      if (mjs_getId(e) == geom) element = e;
+    });
+    return input::Error(composed_.reader.source(element), "geom '{}' of body '{}'",
+                        model_.name(mjOBJ_GEOM, geom), model_.name(mjOBJ_BODY, m.geom_bodyid[geom]))
+        .what();
+  };
+  for (const auto& [a, b] : coplanar_geoms(model_, is_drawn_, model_.camera_pose(camera_).p)) {
+    const int material = m.geom_matid[a], carrier = carrier_of_geom(a);
+    const bool is_plain = material < 0 || m.mat_texid[mjNTEXROLE * material + mjTEXROLE_RGB] < 0;
+    const bool looks_alike =
+        is_plain && material == m.geom_matid[b] &&
+        std::equal(m.geom_rgba + 4 * a, m.geom_rgba + 4 * a + 4, m.geom_rgba + 4 * b);
+    const bool is_floor_of_two = carrier == 0 && (is_floor(model_, a) || is_floor(model_, b));
+    if (carrier == carrier_of_geom(b) && (!is_floor_of_two || looks_alike)) continue;
+    warnings().add(Warning::coplanar_faces,
+                   fmt::format("{} and {} have a surface in one place", cited(a), cited(b)));
   }
 }
 
@@ -390,15 +456,12 @@ void World::note_looks(const Drawables& drawables) {
          name.empty() ? body : name,
          fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, alpha));
   }
-  for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
-    if (!composed_.is_frozen[i]) continue;
-    const scenario::Actor& actor = scenario_.actors[i];
-    warnings().add(Warning::joints_frozen,
-                   fmt::format("actor '{}' keeps the pose '{}'", actor.name, actor.pose));
-  }
   for (const auto& [type, id] : undrawn_parts(model_)) {
     const std::string_view name = model_.name(type, id);
-    warn(Warning::undrawn_parts, type, name,
+    const int body = type == mjOBJ_SITE ? model_.m().site_bodyid[id] : 0;
+    if (body > 0 && model_.m().body_rootid[body] == base_) continue;  // its IMU
+    warn(Warning::undrawn_parts, name.empty() ? mjOBJ_BODY : type,
+         name.empty() ? model_.name(mjOBJ_BODY, body) : name,
          fmt::format("{} '{}' is not drawn", mju_type2Str(type), name));
   }
 }
@@ -425,11 +488,20 @@ void World::move_actors() {
   }
 }
 
-void World::guarded(const auto& action) const {
+void World::guarded(const auto& action) {
   std::string problem;
   try {
     action();
-    problem = take_warning();
+    const std::string warning = take_warning();
+    const auto has_met = [&](mjtWarning kind) { return model_.d().warning[kind].number > 0; };
+    const bool diverged =
+        has_met(mjWARN_BADQPOS) || has_met(mjWARN_BADQVEL) || has_met(mjWARN_BADQACC);
+    if (diverged) problem = warning;
+    if (!diverged && !warning.empty()) {
+      warnings().add(Warning::mujoco_warnings,
+                     fmt::format("MuJoCo warns at {:.4f} s: {}", 1e-9 * static_cast<double>(t_ns_),
+                                 in_one_line(warning)));
+    }
   } catch (const MujocoError& e) {
     problem = e.what();
   }
@@ -478,8 +550,10 @@ std::int64_t World::next_event_ns(std::int64_t until_ns) const {
 void World::step_to(std::int64_t t_ns) {
   const std::int64_t start_ns = t_ns_;
   const std::int64_t span_ns = t_ns - start_ns;
-  const std::int64_t steps = (span_ns + kLongestStep_ns - 1) / kLongestStep_ns;
   mjModel& m = model_.m();
+  const auto longest_ns =
+      std::llround(1e9 * std::min(composed_.spec->option.timestep, kLongestStep_s));
+  const std::int64_t steps = (span_ns + longest_ns - 1) / longest_ns;
   m.opt.timestep = 1e-9 * static_cast<double>(span_ns) / static_cast<double>(steps);
   // own count of steps, as MuJoCo resets its time to 0 when it diverges
   for (std::int64_t i = 0; i < steps; ++i) {

@@ -3,8 +3,8 @@
 /// of IMU and odometry. Needs no GL.
 ///
 /// Events (frames, readings, phases of the ego) have exact times k / rate; the steps between two
-/// events are equal and at most 2 ms long. At each event MuJoCo's derived quantities are
-/// recomputed, so that readings are of exactly that time.
+/// events are equal, and as long as the scene's timestep at most, and 2 ms. At each event MuJoCo's
+/// derived quantities are recomputed, so that readings are of exactly that time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -136,12 +136,14 @@ class World {
   void find_limbs(const scenario::Actor& actor, int body);
   void begin_watch(WrongStart wrong_start);
   void note_looks(const Drawables& drawables);
+  void note_load();
+  void note_coplanar();
   void end_watch();
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();
   void forward();
   void step_to(std::int64_t t_ns);
-  void guarded(const auto& action) const;
+  void guarded(const auto& action);
   std::int64_t next_event_ns(std::int64_t until_ns) const;
   ImuSample ideal_reading();
   void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,

@@ -22,10 +22,10 @@ const fs::path kSources = fs::path(LCS_TESTS_DIR).parent_path();
 /// Calls that read a file or decode bytes, and the files that may use them.
 const std::map<std::string, std::set<std::string>> kWays{
     {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
-     {"sim/scene/trial.cpp"}},  // /proc/self/statm
+     {"sim/base/trial.cpp"}},  // /proc/self/statm
     {R"(::open(at)?\()",
      {"scenarios/input/input_file.cpp",
-      "sim/scene/trial.cpp",          // /dev/null
+      "sim/base/trial.cpp",          // /dev/null
       "tools/lcs/terminal.cpp",       // /dev/null
       "tools/process/child.cpp",      // /dev/null
       "tools/files/output_file.cpp",  // the file to be replaced or copied

@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
         added("UnknownNear", "sede: 5\n", "4: unknown key 'sede'; did you mean 'seed'?"),
         added(
             "UnknownFar", "weather: rain\n",
-            "4: unknown key 'weather'; known are purpose, groups, scene, recording, origin, seed, "
+            "4: unknown key 'weather'; known are purpose, groups, scene, pose, recording, origin, "
+            "seed, "
             "ego, camera, cameras, filter_camera, frames, duration, imu, odometry, events, truth, "
             "image, "
             "ground, actors, "

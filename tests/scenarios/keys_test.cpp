@@ -35,10 +35,12 @@ TEST(Keys, TheSchemaFollowsTheList) {
 constexpr const char* kSimulated = R"(purpose: all keys
 groups: [long, night]
 scene: room.xml
+pose: shut
 origin: {family: room, seed: 7, again: 2, features: [slope, weeds]}
 seed: 18446744073709551615
 ego:
   drive: wheeled
+  pose: home
   start: [-3 m, 1.5 m]
   heading: 90 deg
   speed: 0.1 m/s

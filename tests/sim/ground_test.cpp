@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,30 @@ double greatest_tilt_rad(const scenario::Scenario& s) {
     greatest = std::max(greatest, std::acos(std::min(1.0, up.z())));
   }
   return greatest;
+}
+
+/// The program's own parts take none of the scene's defaults, and are drawn.
+TEST(Ground, TakesNoDefaultsOfTheScene) {
+  auto s = rough(0.01);
+  std::string mjcf = test::floor_with("");
+  mjcf.insert(
+      mjcf.find("<statistic"),
+      "<asset><material name='none' rgba='1 0 0 .2'/></asset><default><geom group='3' "
+      "friction='.01' density='7' margin='1' condim='1' "
+      "rgba='1 0 0 0' material='none'/><camera fovy='9' projection='orthographic'/></default>");
+  mjcf.insert(mjcf.find("type=\"plane\""), "group='0' ");
+  s.scene = test::scenario_in_mjcf(mjcf, 0, 1).scene;
+  s.camera.groups = {2, 0};
+  const World world(s);
+  const mjModel& m = world.model().m();
+  const int geom = world.model().id(mjOBJ_GEOM, "rough_ground");
+  EXPECT_TRUE(world.is_drawn(geom));
+  EXPECT_EQ(m.geom_friction[3 * geom], 1);
+  EXPECT_EQ(m.geom_margin[geom], 0);
+  EXPECT_EQ(m.geom_condim[geom], 3);
+  const int camera = world.camera_id();
+  EXPECT_EQ(m.cam_projection[camera], mjPROJ_PERSPECTIVE);
+  EXPECT_NEAR(m.cam_fovy[camera], s.camera.fovy_rad * 180 / std::numbers::pi, 1e-9);
 }
 
 TEST(Ground, HasTheRoughnessAskedForAndIsLevelAtItsEdges) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ class SceneFile : public testing::Test {
     return s;
   }
   void write(const std::string& name, const std::string& content) const {
+    fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name, std::ios::binary) << content;
   }
   /// The error message of loading; the libraries must write nothing to stderr.
@@ -71,6 +73,8 @@ class SceneFile : public testing::Test {
   const fs::path scene_ = folder_ / "scene.xml";
 };
 
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 constexpr const char* kCorners = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
 
 /// Content of a file in one of MuJoCo's binary formats.
@@ -120,7 +124,6 @@ TEST_F(SceneRefused, InAnIncludedFileNamesThatFile) {
 }
 
 TEST_F(SceneRefused, InAnActorsFileNamesThatFile) {
-  fs::create_directories(folder_ / "actors");
   write("actors/box.xml",
         "<mujoco><custom><numeric name='size' data='1 1 1'/></custom><worldbody>\n<body "
         "name='base'>\n<geom type='box' size='0 1 1'/></body></worldbody></mujoco>");
@@ -169,11 +172,13 @@ TEST_F(SceneRefused, ForFilesThatAreNoneOfTheirKind) {
   write("a.stl", "solid cube\nendsolid\n" + std::string(100, ' '));
   expect({.asset = "<mesh name='m' file='a.stl'/>"}, 4, {"a.stl", "binary STL"});
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 99\n");
-  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 5", "99", "there are 4"});
+  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4,
+         {"<mesh name=\"m\">", "vertex index 98", "faces"});
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\n");
-  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 7", "no normal"});
-  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3\nf 1 2 -9\n");
-  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 6", "-9"});
+  expect_at(scene_.string() + ": ", refusal(scenario({.asset = "<mesh name='m' file='a.obj'/>"})),
+            {"normal index out of bounds", "faces"});
+  write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3\nf 1 2 -9\n");
+  expect({.asset = "<mesh name='m' file='b.obj'/>"}, 4, {"b.obj", "save it anew as OBJ"});
   write("a.png", "this is no picture, but it is long enough");
   expect({.asset = "<texture name='t' type='2d' file='a.png'/>"}, 4, {"PNG"});
   write("a.jpg", "this is no picture, but it is long enough");
@@ -213,21 +218,49 @@ TEST_F(SceneRefused, ForIndicesBeyondTheVertices) {
 }
 
 TEST_F(SceneRefused, ForNumbersThatAreNoneOrEndless) {
-  expect({.world = "<geom size='nan'/>"}, 7, {"<geom>", "size has 'nan'", "finite"});
+  expect({.world = "<geom size='nan'/>"}, 7, {"<geom>", "size has 'nan'"});
   expect({.world = "<geom size='1' pos='0 inf 0'/>"}, 7, {"pos has 'inf'"});
-  expect({.world = "<geom size='1' pos='0 1e999 0'/>"}, 7, {"pos has '1e999'"});
+  expect({.world = "<geom size='1' pos='0 1e999 0'/>"}, 7, {"'pos'", "too large"});
   expect({.world = "<geom size='1' pos='0 1e30 0'/>"}, 7, {"pos has '1e30'", "1e+06 m"});
-  expect({.asset = "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 one'/>"}, 4, {"'one'", "vertex"});
+  expect({.asset = "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 one'/>"}, 4,
+         {"'vertex'", "bad format"});
   for (const char* face : {"0 2 1.5", "0 2 1e0", "0 2 x"}) {
     expect({.asset = std::string("<mesh name='m' ") + kCorners + " face='" + face + "'/>"}, 4,
-           {"face has ", "no integer"});
+           {"'face'", "bad format", "integers"});
   }
   std::vector<float> numbers = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0};
   numbers.back() = std::numeric_limits<float>::quiet_NaN();
   write("a.msh", bytes({4, 0, 4, 4}, numbers, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}));
   expect_at(scene_.string() + ": ", refusal(scenario({.asset = "<mesh name='m' file='a.msh'/>"})),
             {"not finite", "mesh_texcoord"});
+  for (const char* joint :
+       {"damping='nan'", "stiffness='inf'", "user='1 nan'", "name='nan' armature='inf'"}) {
+    expect({.world = "\n<body name='b'><joint " + std::string(joint) + "/><geom size='1'/></body>"},
+           8, {"<joint", "not finite"});
+  }
+  EXPECT_NO_THROW(World(scenario(
+      {.world =
+           "<body name='b' pos='0 0 5'><joint name='j' range='-inf inf'/><geom size='1'/></body>",
+       .end = "<actuator><motor joint='j' forcerange='-inf inf'/></actuator>"})));
   EXPECT_NO_THROW(World(scenario({.world = "<site name='nan' pos='0 0 1'/>"})));
+}
+
+/// Texts of any kind may have words that are numbers, begin as numbers or are not finite.
+TEST_F(SceneFile, MayHaveNumbersInItsTexts) {
+  write("3d/2f85.xml",
+        "<mujoco model='2f85'><worldbody><body name='1e9'><geom size='.1'/></body></worldbody>"
+        "</mujoco>");
+  write("3d/inf.obj", kTetrahedron);
+  const auto s = scenario(
+      {.top = "<compiler meshdir='3d'/><custom><text name='12 inf' data='nan 5x'/></custom>",
+       .asset = "<model name='2f85' file='3d/2f85.xml'/><mesh name='7up' file='inf.obj'/>",
+       .world = "<attach model='2f85' body='1e9' prefix='1_'/>"
+                "<replicate count='2' sep='0_' offset='1 0 0'><body name='nan' pos='3 0 0'>"
+                "<geom type='mesh' mesh='7up'/></body></replicate>",
+       .end = "<custom><tuple name='1x'><element objtype='mesh' objname='7up' prm='2'/></tuple>"
+              "</custom>"});
+  const World world(s);
+  EXPECT_EQ(world.objects().size(), 3u);
 }
 
 TEST_F(SceneRefused, ForMoreThanTheLimitsAllow) {
@@ -250,7 +283,7 @@ TEST_F(SceneRefused, ForMoreThanMemoryHolds) {
       expect({.top = top}, 2, {"<size>", size + std::string(" is ") + count, "can be -1 to"});
     }
   }
-  expect({.top = "<option gravity='0 0 -9.81m'/>"}, 2, {"gravity has '-9.81m'", "no number"});
+  expect({.top = "<option gravity='0 0 -9.81m'/>"}, 2, {"'gravity'", "bad format"});
 }
 
 TEST_F(SceneRefused, ForTexturesThatAreTooLargeNamingThemAndNotTheCamera) {
@@ -357,10 +390,67 @@ TEST_F(SceneRefused, NotForAKeyframeOfItsOwn) {
 }
 
 TEST_F(SceneRefused, NotForFilesWhoseFoldersAreStripped) {
-  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  write("a.obj", kTetrahedron);
   EXPECT_NO_THROW(World(scenario({.top = "<compiler strippath='true'/>",
                                   .asset = "<mesh name='m' file='/elsewhere/a.obj'/>",
                                   .world = "<geom type='mesh' mesh='m'/>"})));
+}
+
+/// Asked of MuJoCo: each file has one place by which it loads, and no other.
+TEST_F(SceneFile, FindsFilesWhereMujocoFindsThem) {
+  constexpr const char* kBall = "<body name='ball'><geom size='.1'/></body>";
+  const std::string in_world = "<mujoco><worldbody>" + std::string(kBall) + "</worldbody></mujoco>";
+  const std::string of_mesh =
+      "<mujoco><asset><mesh name='m' file='m.obj'/></asset><worldbody><body name='ball'>"
+      "<geom type='mesh' mesh='m'/></body></worldbody></mujoco>";
+  const std::string elsewhere = (fs::path(testing::TempDir()) / "elsewhere").string();
+  write(elsewhere + "/m.obj", kTetrahedron);
+  write(elsewhere + "/part.xml", of_mesh);
+  struct Case {
+    std::map<std::string, std::string> files;
+    Parts parts;
+  };
+  const std::string attach = "<attach model='m' body='ball' prefix='a/'/>";
+  const std::vector<Case> cases = {
+      // a model is named from the scene's folder, not from that of meshes
+      {{{"robots/m.xml", of_mesh}, {"robots/m.obj", kTetrahedron}, {"meshes/m.obj", "v 0 0 0"}},
+       {.top = "<compiler meshdir='meshes'/>",
+        .asset = "<model name='m' file='robots/m.xml'/>",
+        .world = attach}},
+      // an included file may name its own neighbours, or those of the scene
+      {{{"a/part.xml", of_mesh}, {"a/m.obj", kTetrahedron}},
+       {.end = "<include file='a/part.xml'/>"}},
+      {{{"a/part.xml", of_mesh}, {"m.obj", kTetrahedron}}, {.end = "<include file='a/part.xml'/>"}},
+      {{{"a/part.xml", "<mujoco><include file='b/c.xml'/></mujoco>"}, {"a/b/c.xml", in_world}},
+       {.end = "<include file='a/part.xml'/>"}},
+      {{{"a/part.xml", "<mujoco><compiler assetdir='x'/><include file='b.xml'/></mujoco>"},
+        {"b.xml", of_mesh},
+        {"x/m.obj", kTetrahedron}},
+       {.end = "<include file='a/part.xml'/>"}},
+      // absolute names
+      {{}, {.end = "<include file='" + elsewhere + "/part.xml'/>"}},
+      {{},
+       {.top = "<compiler meshdir='" + elsewhere + "'/>",
+        .asset = "<mesh file='m.obj'/>",
+        .world = "<body name='ball'><geom type='mesh' mesh='m'/></body>"}},
+      // stripped names, also where an included file says so
+      {{{"x/m.obj", kTetrahedron}, {"s.xml", "<mujoco><compiler strippath='true'/></mujoco>"}},
+       {.top = "<compiler meshdir='x'/>",
+        .asset = "<mesh file='/gone/m.obj'/>",
+        .world = "<body name='ball'><geom type='mesh' mesh='m'/></body>",
+        .end = "<include file='s.xml'/>"}},
+      {{{"meshes/m.obj", kTetrahedron}},
+       {.top = "<compiler meshdir='meshes'/>",
+        .world = "<body name='ball' pos='0 0 1'><flexcomp name='f' type='mesh' file='m.obj' "
+                 "rigid='true'/></body>"}}};
+  for (const Case& c : cases) {
+    for (const auto& [name, content] : c.files) write(name, content);
+    const scenario::Scenario s = scenario(c.parts);
+    EXPECT_NO_THROW(World{s}) << c.parts.end << c.parts.world;
+    for (const auto& [name, content] : c.files) fs::remove(folder_ / name);
+    if (!c.files.empty()) expect_at(folder_.string(), refusal(s), {"file", "; "});
+  }
+  fs::remove_all(elsewhere);
 }
 
 }  // namespace

@@ -275,8 +275,30 @@ TEST_F(OwnActor, OfAnArticulatedModelKeepsThePoseAskedFor) {
   EXPECT_NEAR((large_high - 2 * high).norm(), 0, 1e-6) << large_high.transpose();
   auto s = posed("sit", natural);
   s.actors[0].source = {"test.yaml", 9};
-  expect_refused(s, "test.yaml", 9, {"'sit'", "zero, walking, d/home"});
+  expect_refused(s, "test.yaml", 9, {"'sit'", "zero, d/home"});
   expect_refused(posed("", natural), folder_ / "dog.xml", 3, {"an actor is one rigid body"});
+}
+
+TEST_F(OwnActor, KeepsAPoseWhateverDefaultsItsJointsHave) {
+  for (const char* defaults :
+       {"range='-1.5 1.5'", "limited='true' range='-1 2'", "actuatorfrcrange='-3 3'", "ref='.5'",
+        "type='ball'", "springdamper='.1 1'", "stiffness='7' springref='.3'", "pos='1 2 3'",
+        "armature='1' frictionloss='2' damping='3' margin='.1' group='5' user='4'"}) {
+    write("dog.xml",
+          "<mujoco><compiler angle='radian'/><default><joint " + std::string(defaults) +
+              "/></default><worldbody><body name='trunk' pos='0 0 1'><freejoint/><geom "
+              "type='box' size='.1 .1 .1'/></body></worldbody><keyframe><key name='home' "
+              "qpos='0 .2 .8 1 0 0 0'/></keyframe></mujoco>");
+    auto s = on_floor();
+    s.actors = {
+        own_actor("truck", file({.asset = "<asset><model name='dog' file='dog.xml'/></asset>",
+                                 .inside = "<attach model='dog' body='trunk' prefix='d/'/>"}))};
+    s.actors[0].pose = "home";
+    s.actors[0].size_m = {1, .5, 1};
+    const World world(s);
+    const auto [low, high] = extent(world);
+    EXPECT_NEAR((low - Vector3d(-.1, .1, .7)).norm(), 0, 1e-6) << defaults << low.transpose();
+  }
 }
 
 TEST_F(OwnActor, WalksIfItHasTheBodiesOfAWalkerAtRestAndIsElseRefusedAtTheWrongOne) {
@@ -524,6 +546,19 @@ TEST_F(OwnRover, DrivesOnFourWheelsWithAnArmOnTop) {
   const double heading = std::atan2(turned.R(1, 0), turned.R(0, 0));
   EXPECT_GT(heading, 0.1) << "its wheels scrub, so that it turns less than the 0.6 rad asked for";
   EXPECT_LT(heading, 0.65);
+  // told: the arm's motor holds nothing; a pose makes the arm a part of the base
+  EXPECT_EQ(World(s).warnings().of(Warning::joints_loose).count, 1);
+  s.ego.pose = scenario::kPoseZero;
+  s.ego.phases[0].yaw_rate_radps = 0;
+  EXPECT_NEAR(driven(s).p.x(), 1, 0.06);
+  const World posed(s);
+  EXPECT_EQ(posed.warnings().of(Warning::joints_loose).count, 0);
+  EXPECT_EQ(posed.warnings().of(Warning::joints_frozen).count, 1);
+  EXPECT_FALSE(posed.model().has(mjOBJ_JOINT, "ego/arm"));
+  EXPECT_TRUE(posed.model().has(mjOBJ_JOINT, "ego/left_rear"));
+  s.ego.pose = "folded";
+  s.ego.source = {"test.yaml", 9};
+  expect_refused(s, "test.yaml", 9, {"the rover has the pose 'folded'", "one of zero"});
 }
 
 TEST_F(OwnRover, MayHaveACameraOfItsOwnForAViewer) {

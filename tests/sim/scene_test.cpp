@@ -143,7 +143,7 @@ TEST(Scene, MissingOrMalformedFilesAreNamedWithTheirLine) {
   s = scenario_in_mjcf("<mujoco>\n  <worldbody>\n  <geom size='1'>\n</mujoco>\n", 0, 1);
   expect_error(s, {s.scene.string() + ":", "XML"});
 
-  s = scenario_in_mjcf("<robot/>", 0, 1);
+  s = scenario_in_mjcf("<svg/>", 0, 1);
   expect_error(s, {s.scene.string() + ":1", "MJCF"});
 
   s = scenario_in_mjcf("", 0, 1);
@@ -211,7 +211,7 @@ TEST(Scene, FilesThatIncludeEachOtherTwiceAreRefused) {
     std::ofstream file(folder / ("twice" + std::to_string(i) + ".xml"));
     file << "<mujoco>";
     for (int k = 0; k < 2 && i < 11; ++k) file << "<include file='twice" << i + 1 << ".xml'/>";
-    file << "</mujoco>";
+    file << (i < 11 ? "</mujoco>" : "<worldbody/></mujoco>");
   }
   std::string mjcf = floor_with("");
   mjcf.insert(mjcf.find("<worldbody>"), "<include file='twice0.xml'/>");
@@ -223,6 +223,83 @@ TEST(Scene, AnIncludeOfItselfEnds) {
   const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
   mjcf.insert(mjcf.find("<worldbody>"), "<include file='" + name + ".xml'/>");
   expect_error(scenario_in_mjcf(mjcf, 0, 1), {"nested too deep"});
+}
+
+std::string with_option(const std::string& option, const std::string& more) {
+  std::string mjcf = floor_with(more);
+  mjcf.insert(mjcf.find("<statistic"), option);
+  return mjcf;
+}
+
+/// A spring of 4e6 N/m on 1 kg swings with 2000 rad/s, stable below 1 ms.
+TEST(Scene, KeepsAShorterTimestepAndSwingsAsTheEquationSays) {
+  const std::string spring =
+      "<body name='gate' pos='9 0 1'><joint type='slide' axis='0 1 0' stiffness='4e6' "
+      "springref='.01'/><geom type='box' size='.2 .2 .2' mass='1'/></body>";
+  World world(scenario_in_mjcf(with_option("<option timestep='1e-5'/>", spring), 0, 2));
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  for (std::int64_t t_ns = 1'000'000; t_ns <= 30'000'000; t_ns += 1'000'000) {
+    world.advance_to(t_ns, imu, odometry);
+    const double expected_m = .01 * (1 - std::cos(2000 * 1e-9 * static_cast<double>(t_ns)));
+    EXPECT_NEAR(world.snapshot().T_WO.at(1).p.y(), expected_m, 5e-4) << t_ns;
+  }
+  EXPECT_EQ(world.warnings().of(Warning::options_replaced).count, 0);
+}
+
+/// What MuJoCo warns of is a warning here, at the element's line.
+TEST(Scene, LoadsWhatMujocoWarnsOf) {
+  const auto s = scenario_in_mjcf(
+      floor_with("\n<body name='b' pos='3 0 1'><geom size='.1'/><flexcomp name='cloth' type='grid' "
+                 "count='3 3 1' spacing='.1 .1 .1' radius='.01' dim='2' mass='1'/></body>"),
+      0, 1);
+  auto posed = s;
+  posed.pose = scenario::kPoseZero;
+  const World world(posed);
+  const Warnings::Met& told = world.warnings().of(Warning::mujoco_warnings);
+  EXPECT_GE(told.count, 1);
+  EXPECT_NE(told.first.find(s.scene.string()), std::string::npos) << told.first;
+  EXPECT_NE(told.first.find("flex 'cloth' is not rigid"), std::string::npos) << told.first;
+}
+
+constexpr const char* kCabinet =
+    "<body name='cabinet' pos='4 0 .5'><geom type='box' size='.3 .3 .5'/>"
+    "<body name='door' pos='-.31 -.3 0'><joint name='hinge' axis='0 0 1'/>"
+    "<geom type='box' size='.01 .3 .4' pos='0 .3 0'/></body>"
+    "<body name='drawer' pos='0 0 .6'><joint name='slide' type='slide' axis='1 0 0'/>"
+    "<geom type='box' size='.2 .2 .05'/></body></body>"
+    "<body name='ball' pos='6 0 .2'><freejoint/><geom size='.2'/></body>"
+    "<body pos='6 2 .2'><freejoint/><geom size='.2'/></body>";
+
+TEST(Scene, KeepsAPoseOfItsJointsAndElseNamesTheFirst) {
+  std::string mjcf = floor_with(kCabinet);
+  mjcf.insert(
+      mjcf.rfind("</mujoco>"),
+      "<actuator><position joint='hinge'/></actuator><keyframe><key name='open' qpos='1.5708 "
+      ".25 6 1 .2 1 0 0 0 6 2 .2 1 0 0 0'/></keyframe>");
+  auto s = scenario_in_mjcf(mjcf, 0, 3);
+  expect_error(s, {s.scene.string() + ":", "'door' (and 1 more)", "give the scenario a pose"});
+  s.pose = "open";
+  World world(s);
+  const Model& model = world.model();
+  const Pose door = model.body_pose(model.id(mjOBJ_BODY, "door"));
+  EXPECT_NEAR(door.R(1, 0), 1, 1e-4) << door.R;
+  EXPECT_NEAR(model.body_pose(model.id(mjOBJ_BODY, "drawer")).p.x(), 4.25, 1e-9);
+  EXPECT_NEAR(model.body_pose(model.id(mjOBJ_BODY, "ball")).p.y(), 1, 1e-9);
+  const Warnings::Met& told = world.warnings().of(Warning::joints_frozen);
+  EXPECT_EQ(told.count, 1);
+  EXPECT_NE(told.first.find("the scene keeps the pose 'open'"), std::string::npos) << told.first;
+  const Warnings::Met& named = world.warnings().of(Warning::bodies_named);
+  EXPECT_EQ(named.count, 1);
+  EXPECT_NE(named.first.find("'body[3]'"), std::string::npos) << named.first;
+  EXPECT_EQ(world.objects().back().name, "body[3]");
+  // nothing but the loose bodies moves
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  world.advance_to(200'000'000, imu, odometry);
+  EXPECT_EQ(model.body_pose(model.id(mjOBJ_BODY, "door")).R, door.R);
+  s.pose = "shut";
+  expect_error(s, {"the scene has the pose 'shut'", "choose one of zero, open"});
 }
 
 TEST(Scene, AnUnknownTextureStyleOfTheSceneNamesTheKnownOnes) {
@@ -258,10 +335,7 @@ TEST(Scene, ItsOwnCamerasAreNotTheRoversAndChangeNothing) {
   EXPECT_EQ(cv::norm(seen.image, expected.image, cv::NORM_INF), 0);
 }
 
-TEST(Scene, ABodyThatCanMoveNeedsANameAndMovesAsOne) {
-  expect_error(
-      scenario_in_mjcf(floor_with("<body pos='0 3 1'><freejoint/><geom size='.1'/></body>"), 0, 1),
-      {"name"});
+TEST(Scene, ABodyThatCanMoveMovesAsOne) {
   expect_error(
       scenario_in_mjcf(floor_with("<body name='door' pos='0 3 1'><geom size='.1'/>"
                                   "<body name='wing'><joint/><geom size='.1'/></body></body>"),

@@ -1,5 +1,5 @@
 // A child process for operations that may crash: its report to the parent, and its isolation.
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "sim/simulation.h"
 #include "sim/world/overlap.h"
@@ -244,6 +245,63 @@ TEST(Watch, TellsTranslucentGeomsAndPartsThatAreNotDrawnAtTheirLine) {
   const Warnings warnings = driven(scenario_in_mjcf(floor_with(parts), 0, 2));
   expect_told(warnings, Warning::translucent_geoms, ".xml:6: a geom of body 'world' has alpha 0.3");
   expect_told(warnings, Warning::undrawn_parts, "tendon 'rope' is not drawn");
+}
+
+/// A height field is ground, however high it is: nobody is under it.
+TEST(Watch, TellsOfARoverInsideAHill) {
+  std::string mjcf = floor_with("<geom type='hfield' hfield='hill' pos='3 0 0'/>");
+  mjcf.insert(
+      mjcf.find("<worldbody>"),
+      "<asset><hfield name='hill' nrow='3' ncol='3' size='2 2 2 .1' elevation='0 0 0 0 1 0 0 "
+      "0 0'/></asset>");
+  expect_told(driven(scenario_in_mjcf(mjcf, 1, 30)), Warning::rover_below_ground,
+              "below the ground");
+}
+
+/// Two geoms and whether they are told. A box of the setting reaches to x = 3.5 m.
+TEST(Watch, TellsOfSurfacesInOnePlaceThatACameraSees) {
+  const std::string wall =
+      "<geom name='wall' type='box' size='.5 2 1' pos='4 0 1' rgba='1 0 0 1'/>";
+  const std::map<std::string, bool> cases{
+      {"<body name='door' pos='3.55 0 .8'><geom type='box' size='.05 .4 .8'/></body>", true},
+      {"<body name='door' pos='3.54 0 .8'><geom type='box' size='.05 .4 .8'/></body>", false},
+      {"<geom type='plane' size='12 9 .05' rgba='0 1 0 1'/>", true},
+      {"<geom type='plane' size='12 9 .05' pos='0 0 .001' rgba='0 1 0 1'/>", false},
+      {"<geom type='plane' size='12 9 .05' rgba='.5 .5 .5 1'/>", false},  // looks as the floor
+      {"<geom type='cylinder' size='.3 .05' pos='1 3 -.05' rgba='0 0 1 1'/>",
+       true},  // a lid in the floor
+      {"<geom type='cylinder' size='.3 .05' pos='1 3 .05'/>", false},
+      {"<body name='a' pos='1 3 1'><geom size='.3'/></body><body name='b' pos='1 3 1'><geom "
+       "size='.3' rgba='0 0 1 1'/></body>",
+       true},
+      {"<body name='a' pos='1 3 1'><geom size='.3'/><geom size='.3'/></body>", false},
+      {"<geom type='box' size='.1 .1 .1' pos='3.4 0 .1'/><body name='b'><geom type='box' size='.1 "
+       ".1 "
+       ".2' pos='3.4 .1 .2' rgba='0 0 1 1'/></body>",
+       true},  // their sides before the wall
+      {"<geom type='box' size='.1 .1 .1' pos='4 2.1 .1' rgba='1 0 0 1'/>", false}};
+  for (const auto& [more, is_told] : cases) {
+    const auto s = scenario_in_mjcf(floor_with(wall + "\n" + more), 0, 1);
+    const Warnings::Met told = World(s).warnings().of(Warning::coplanar_faces);
+    EXPECT_EQ(told.count > 0, is_told) << more << told.first;
+    const bool has_place = told.first.find(s.scene.string() + ":") != std::string::npos;
+    EXPECT_EQ(has_place, is_told) << told.first;
+  }
+}
+
+TEST(Watch, TellsOfVisibleSitesAndOfOptionsThatAreReplaced) {
+  std::string mjcf = floor_with(
+      "<site name='goal' type='box' size='.3 .3 .3' pos='3 .3 .3'/><site name='mark' pos='2 0 "
+      "1'/>");
+  mjcf.insert(mjcf.find("<statistic"),
+              "<option timestep='.01' integrator='RK4'><flag "
+              "actuation='disable'/></option>");
+  const Warnings warnings = driven(scenario_in_mjcf(mjcf, 0, 2));
+  expect_told(warnings, Warning::undrawn_parts, "site 'goal' is not drawn");
+  const Warnings::Met& replaced = warnings.of(Warning::options_replaced);
+  EXPECT_EQ(replaced.count, 3);
+  EXPECT_NE(replaced.first.find("timestep of 10 ms is replaced by 2 ms"), std::string::npos)
+      << replaced.first;
 }
 
 TEST(Watch, RoughGroundRampsAndRestingObjectsAreNothingToTell) {

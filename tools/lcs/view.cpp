@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "sim/pictures/media.h"
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 #include "tools/lcs/interrupt.h"
 
 namespace lcs::tools {

@@ -1,4 +1,4 @@
-#include "sim/scene/trial.h"
+#include "sim/base/trial.h"
 
 #include <fcntl.h>
 #include <signal.h>
