@@ -113,13 +113,11 @@ void Association::find_pairs(const Chi& chi, const Tracks& predicted) {
   for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) {
     refill_column(*column, pairs_.size());
   }
-  refill(is_sure_, chi.size());
   ln_clutter_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
-    is_sure_[c] = find_pairs(c, x, signature, predicted, followed_, close_px_);
-    if (!is_sure_[c]) {
+    if (!find_pairs(c, x, signature, predicted, followed_, close_px_)) {
       counts_[c] = 0;
       find_pairs(c, x, signature, predicted, all_, reach_px_);
     }
@@ -191,14 +189,10 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (counts_[c] == 0) continue;
-    const Pair& likeliest = pairs_[c * most_pairs_];
-    const Match best = is_sure_[c] ? Match{likeliest.weight, static_cast<int>(c), likeliest.track,
-                                           likeliest.likeness}
-                                   : best_pair(c, around.of(c), pairs);
+    const Match best = best_pair(c, around.of(c), pairs);
     if (best.track >= 0) matches_.push_back(best);
   }
-  std::ranges::sort(matches_, [&](const Match& a, const Match& b) {
-    if (is_sure_[a.corner] != is_sure_[b.corner]) return is_sure_[a.corner] > is_sure_[b.corner];
+  std::ranges::sort(matches_, [](const Match& a, const Match& b) {
     return a.weight > b.weight || (a.weight == b.weight && a.corner < b.corner);
   });
   refill(taken_, predicted.size());

@@ -1,13 +1,13 @@
 /// \file
 /// Assigns corners to tracks, one to one.
 ///
-/// A corner that surely continues a track, by the track's prediction and signature, takes the
-/// likeliest of the tracks that are predicted close to it; then any other corner, one of all tracks
-/// within reach.
+/// A corner that surely continues a track, by the track's prediction and signature, is compared
+/// only with the tracks that are predicted close to it; any other corner with all tracks within
+/// reach.
 ///
 /// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
-/// density of tracks there, times the likelihood ratio of the signatures. For other corners the
-/// neighbours vote with the same ratio for the same step. Many votes for one step make a chance
+/// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
+/// with the same ratio for the same step. Many votes for one step make a chance
 /// match unlikely. A vote from corners that look alike counts little.
 #pragma once
 
@@ -90,7 +90,6 @@ class Association {
   Sought all_;                              // all tracks, about their rotated places
   PointGrid::Found near_;                   // to a corner
   double close_px_ = 0, reach_px_ = 0;      // where followed tracks and all are looked for
-  std::vector<char> is_sure_;               // of each corner: surely continues a track
   std::vector<Alike> alike_;                // of these, to its signature
   std::vector<int> which_;                  // the tracks of these
   std::vector<float> ln_density_, ln_off_;  // `TrackLoops::densities` of these
