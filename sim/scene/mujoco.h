@@ -23,14 +23,14 @@ inline double ray(const mjModel& m, const mjData& d, const double from[3],
   return distance;
 }
 
-/// The same to one geom of any type.
+/// The same to one geom of any type. \param normal of its surface there; may be null.
 inline double ray_geom(const mjModel& m, const mjData& d, int geom, const double from[3],
-                       const double direction[3]) {
+                       const double direction[3], double* normal = nullptr) {
   const int type = m.geom_type[geom];
-  if (type == mjGEOM_MESH) return mj_rayMesh(&m, &d, geom, from, direction, nullptr);
-  if (type == mjGEOM_HFIELD) return mj_rayHfield(&m, &d, geom, from, direction, nullptr);
+  if (type == mjGEOM_MESH) return mj_rayMesh(&m, &d, geom, from, direction, normal);
+  if (type == mjGEOM_HFIELD) return mj_rayHfield(&m, &d, geom, from, direction, normal);
   return mju_rayGeom(d.geom_xpos + 3 * geom, d.geom_xmat + 9 * geom, m.geom_size + 3 * geom, from,
-                     direction, type, nullptr);
+                     direction, type, normal);
 }
 
 /// Calls `found(distance, point, normal)` for each contact that MuJoCo's collision function finds

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 
+#include "sim/scene/mujoco.h"
+
 namespace lcs::sim {
 namespace {
 
@@ -17,16 +19,9 @@ constexpr int kLeastRays = 16;      // that meet two surfaces at once, of 64 ont
 
 /// Distance to the outside of a geom; -1 for none, and for its inside.
 double ray(const Model& model, int geom, const Vector3d& from, const Vector3d& along) {
-  const mjModel& m = model.m();
-  const mjData& d = model.d();
-  const int type = m.geom_type[geom];
   Vector3d normal = Vector3d::Zero();
   const double way_m =
-      type == mjGEOM_MESH ? mj_rayMesh(&m, &d, geom, from.data(), along.data(), normal.data())
-      : type == mjGEOM_HFIELD
-          ? mj_rayHfield(&m, &d, geom, from.data(), along.data(), normal.data())
-          : mju_rayGeom(d.geom_xpos + 3 * geom, d.geom_xmat + 9 * geom, m.geom_size + 3 * geom,
-                        from.data(), along.data(), type, normal.data());
+      mj::ray_geom(model.m(), model.d(), geom, from.data(), along.data(), normal.data());
   return normal.dot(along) < 0 ? way_m : -1;
 }
 

@@ -32,6 +32,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::density;
+using testing::gauss;
 using testing::kDt_s;
 using testing::kNoise2_px2;
 using testing::kUsual;

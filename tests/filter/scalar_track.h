@@ -13,6 +13,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -26,6 +29,21 @@
 #include "filter/types/signature.h"
 
 namespace lcs::testing {
+
+/// Normal densities in the plane, 1/px^2.
+inline double gauss(const Vec2& residual, double variance) {
+  return std::exp(-0.5 * residual.squaredNorm() / variance) / (2 * std::numbers::pi * variance);
+}
+
+inline double gauss(const Vec2& residual, const Eigen::Matrix2d& covariance) {
+  return std::exp(-0.5 * distance2(residual, covariance)) /
+         (2 * std::numbers::pi * std::sqrt(covariance.determinant()));
+}
+
+/// Probability that a standard normal variable is below z.
+inline double below(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
 
 /// Bounds of 1/Z of a static point at a place, 1/m.
 struct DepthBounds {

@@ -29,6 +29,7 @@ namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
+using testing::gauss;
 using testing::Noise;
 using testing::Random;
 using testing::StaticPoint;
