@@ -98,7 +98,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   }
   const MotionField& field = is_held ? *held : told_field;
   last = *motion;
-  assign_verdicts(chi, tracked.verdicts, tracked.reasons, result);
+  assign_verdicts(chi, tracked.verdicts, tracked.reasons, tracked.log_odds, result);
   const BothKinds<Edge>* edges = &tracked.edges;
   const CircleExpert::Result* circles = &circle_expert.step(*edges, field);
   result.gaps.reset();

@@ -301,9 +301,10 @@ void EdgeExpert::make_edges(const Chi& chi, const MotionField& field) {
 }
 
 void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
-  auto& [edges, verdicts, reasons, motion] = result_;
+  auto& [edges, verdicts, reasons, log_odds, motion] = result_;
   refill(verdicts, chi.size(), Verdict::pending);
   refill(reasons, chi.size(), Reason::unknown);
+  log_odds = {tracks_.columns[kBelief], corners_};
   for (std::size_t t = 0; t < corners_; ++t) {
     const bool rebel = tracks_.at(kBelief, t) > 0, has_motion = tracks_.has_motion(t);
     const bool by_itself = (tracks_.at(kLogOdds, t) > 0) == rebel;

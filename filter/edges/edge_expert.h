@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,9 +35,10 @@ class EdgeExpert {
   EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameters, const TrustRanks& trust);
 
   struct Result {
-    BothKinds<Edge> edges;          ///< by rising id
-    std::vector<Verdict> verdicts;  ///< of each corner of chi
-    std::vector<Reason> reasons;    ///< of each corner of chi
+    BothKinds<Edge> edges;            ///< by rising id
+    std::vector<Verdict> verdicts;    ///< of each corner of chi
+    std::vector<Reason> reasons;      ///< of each corner of chi
+    std::span<const float> log_odds;  ///< of each corner of chi: that it moves by itself
     UsedMotion motion = UsedMotion::told;
   };
 

@@ -84,17 +84,24 @@ void repeat_verdicts(const Chi& chi, FrameResult& result) {
   for (const Chi::Repeat& repeat : chi.repeats) {
     result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
     result.reasons[repeat.source] = result.reasons[repeat.of_source];
+    if (result.log_odds.empty()) continue;
+    result.log_odds[repeat.source] = result.log_odds[repeat.of_source];
   }
 }
 
 }  // namespace
 
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
-                     std::span<const Reason> reasons, FrameResult& result) {
+                     std::span<const Reason> reasons, std::span<const float> log_odds,
+                     FrameResult& result) {
   copy_over(chi.rejected, result.reasons);
   refill(result.verdicts, chi.rejected.size(), Verdict::pending);
   for (std::size_t i = 0; i < chi.rejected.size(); ++i) {
     if (chi.rejected[i] == Reason::in_psi) result.verdicts[i] = Verdict::ignored;
+  }
+  refill(result.log_odds, log_odds.empty() ? 0 : chi.rejected.size());
+  for (std::size_t c = 0; c < log_odds.size(); ++c) {
+    result.log_odds[chi.sources[c]] = log_odds[c];
   }
   for (std::size_t c = 0; c < chi.size(); ++c) {
     result.verdicts[chi.sources[c]] = verdicts[c];
@@ -103,11 +110,12 @@ void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
   repeat_verdicts(chi, result);
 }
 
-void assign_rebels(const Chi& chi, std::span<const int> corners, Reason reason,
+void assign_rebels(const Chi& chi, std::span<const CornerOdds> corners, Reason reason,
                    FrameResult& result) {
-  for (const int c : corners) {
+  for (const auto& [c, log_odds] : corners) {
     result.verdicts[c] = Verdict::rebel;
     result.reasons[c] = reason;
+    result.log_odds[c] = log_odds;
   }
   repeat_verdicts(chi, result);
 }

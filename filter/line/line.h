@@ -73,12 +73,13 @@ void count_rejected(const Chi& chi, Diagnostics& diagnostics);
 
 /// Sets verdict and reason of each of the caller's corners. Rejected corners are `ignored` inside
 /// psi and `pending` elsewhere. A repeat gets the verdict and reason of the corner at its place.
-/// \param verdicts, reasons one for each corner of chi.
+/// \param verdicts, reasons, log_odds one for each corner of chi; no `log_odds`: none are known.
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
-                     std::span<const Reason> reasons, FrameResult& result);
+                     std::span<const Reason> reasons, std::span<const float> log_odds,
+                     FrameResult& result);
 
-/// Makes corners, and their repeats, rebels. \param corners indices in the caller's list.
-void assign_rebels(const Chi& chi, std::span<const int> corners, Reason reason,
+/// Makes corners, and their repeats, rebels.
+void assign_rebels(const Chi& chi, std::span<const CornerOdds> corners, Reason reason,
                    FrameResult& result);
 
 }  // namespace lcs

@@ -73,7 +73,7 @@ const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corn
   square_expert.update(circles.circles, psi, field, squares);
   result.times.square_ms = watch.lap_ms();
 
-  assign_verdicts(chi, verdicts, reasons, result);
+  assign_verdicts(chi, verdicts, reasons, {}, result);
   set_layers(edges.edges, circles, squares, result.layers);
   copy_over(edges.chains, alpha);
   return result;

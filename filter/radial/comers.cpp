@@ -132,9 +132,8 @@ void Comers::inherit(const std::vector<Edge>& edges, std::span<const Eigen::Vect
   }
   for (std::size_t c = 0; c < corners_px.size(); ++c) {
     if (reasons[c] != Reason::first_sighting) continue;
-    if (odds_near(corners_px[c].cast<double>()) > 0) {
-      result_.inherited.push_back(static_cast<int>(c));
-    }
+    const double odds = odds_near(corners_px[c].cast<double>());
+    if (odds > 0) result_.inherited.push_back({static_cast<int>(c), static_cast<float>(odds)});
   }
 }
 

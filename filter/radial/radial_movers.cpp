@@ -93,7 +93,9 @@ const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
     edge.origin = edge.location - field.dt_s() * edge.velocity();
     edge.depth_ratio_sigma = std::numeric_limits<double>::infinity();
     edge.trust = trust.of_log_odds(odds[i]);
-    if (edge.corner >= 0) (joined[i] >= 0 ? went : came).push_back(edge.corner);
+    if (edge.corner >= 0) {
+      (joined[i] >= 0 ? went : came).push_back({edge.corner, static_cast<float>(odds[i])});
+    }
     to.rebel.push_back(edge);
     to_circles.of_edges.rebel.push_back(joined[i] >= 0 ? joined[i] : own);
   }

@@ -13,6 +13,7 @@
 #include "filter/matching/point_grid.h"
 #include "filter/radial/comer_parameters.h"
 #include "filter/radial/ground_view.h"
+#include "filter/types/frame_result.h"
 #include "filter/types/gap.h"
 #include "filter/types/layers.h"
 #include "filter/types/reason.h"
@@ -32,8 +33,8 @@ class Comers {
     /// Log odds that each normal edge approaches. An edge in no circle, or of no known depth, has
     /// the log odds of the nearest edge with a known depth; all edges of a circle have the same.
     std::vector<double> odds;
-    /// Corners without an edge that are nearest to one that comes, as indices in the caller's list.
-    std::vector<int> inherited;
+    /// Corners without an edge that are nearest to one that comes.
+    std::vector<CornerOdds> inherited;
     std::vector<GapSeen> gaps;  ///< all gaps that were looked at, with the answers
   };
 
@@ -123,7 +124,7 @@ class Relabel {
     BothKinds<Edge> edges;  ///< by rising id
     CircleExpert::Result circles;
     /// Corners of the edges that became rebels, with their circle, or by joining another circle.
-    std::vector<int> came, went;
+    std::vector<CornerOdds> came, went;
   };
 
   /// \param odds of each normal edge: log odds that it moves. Those above 0 become rebels. The

@@ -31,7 +31,7 @@ Chi collected(const std::vector<Eigen::Vector2f>& corners, const std::vector<Ign
   const Chi& chi = line.collect(corners, {}, psi);
   FrameResult result;
   assign_verdicts(chi, std::vector<Verdict>(chi.size(), Verdict::pending),
-                  std::vector<Reason>(chi.size()), result);
+                  std::vector<Reason>(chi.size()), {}, result);
   verdicts = result.verdicts;
   return chi;
 }

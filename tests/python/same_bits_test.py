@@ -90,6 +90,7 @@ class SameBits(unittest.TestCase):
         self.assertEqual(verdicts, line["corners"]["verdict"], what)
         reasons = [lcs.Reason(reason).name.lower() for reason in result.reasons]
         self.assertEqual(reasons, line["corners"]["reason"], what)
+        np.testing.assert_allclose(result.log_odds, line["log_odds"], rtol=0, atol=0.00501, err_msg=what)
         for items, normal, rebel in [
             (result.edges, "normal_edges", "rebel_edges"),
             (result.circles, "normal_circles", "rebel_circles"),

@@ -96,6 +96,7 @@ FrameRecord full_frame(Filler& filler, int index) {
     frame.corners_px.emplace_back(static_cast<float>(i) + 0.1f, 1.0f / static_cast<float>(i + 3));
     frame.verdicts.push_back(static_cast<Verdict>(i % 4));
     frame.reasons.push_back(static_cast<Reason>((7 * index + i) % kReasons.size()));
+    frame.log_odds.push_back(static_cast<float>(311 * i - 500) / 100);
     frame.signatures.push_back(filler.signature());
   }
   frame.motion = filler.motion();
@@ -184,6 +185,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(back.frames[k].signatures, recording.frames[k].signatures);
     EXPECT_EQ(back.frames[k].verdicts, recording.frames[k].verdicts);
     EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
+    EXPECT_EQ(back.frames[k].log_odds, recording.frames[k].log_odds);
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
     EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
     EXPECT_EQ(back.frames[k].motion.unseen_turn_rad, recording.frames[k].motion.unseen_turn_rad);

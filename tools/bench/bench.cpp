@@ -1,6 +1,7 @@
 #include "tools/bench/bench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <opencv2/imgproc.hpp>
 
@@ -74,6 +75,8 @@ void store_result(const FrameResult& said, double recording::FrameTimes::*step_t
                   recording::FrameRecord& frame) {
   frame.verdicts = said.verdicts;
   frame.reasons = said.reasons;
+  frame.log_odds = said.log_odds;
+  for (float& odds : frame.log_odds) odds = std::round(100 * odds) / 100;
   frame.layers = said.layers;
   frame.paper = said.paper;
   frame.gaps = said.gaps;

@@ -106,6 +106,14 @@ pixels, angles in rad, speeds in px/s.)")
       .def_property_readonly(
           "reasons", [](const py::object& self) { return codes(self, &FrameResult::reasons); },
           "N uint8, a Reason for each verdict.")
+      .def_property_readonly(
+          "log_odds",
+          [](const py::object& self) {
+            const std::vector<float>& odds = self.cast<const Result&>().said.log_odds;
+            return view({std::ssize(odds)}, odds.data(), self);
+          },
+          "N float32: log odds that each corner moves by itself; empty with the presets lab and "
+          "cars.")
       .def_property_readonly("rebels", &rebels, "N bool: the corners that move by themselves.")
       .def_property_readonly(
           "edges",

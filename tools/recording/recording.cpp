@@ -13,6 +13,7 @@ void set_corner_truth(Truth truth, FrameRecord& frame) {
 FrameRecord without_detections(FrameRecord frame) {
   frame.verdicts.clear();
   frame.reasons.clear();
+  frame.log_odds.clear();
   frame.layers = {};
   frame.paper = {};
   frame.masks.clear();

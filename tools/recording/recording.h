@@ -53,6 +53,8 @@ struct FrameRecord {
   std::vector<Signature> signatures;        ///< of each corner; empty if not computed
   std::vector<Verdict> verdicts;            ///< of each corner
   std::vector<Reason> reasons;              ///< of each verdict; empty if not given
+  /// Of each corner, in steps of .01: log odds that it moves by itself; empty if not given.
+  std::vector<float> log_odds;
   Layers layers;
   PaperLayers paper;  ///< empty except for the paper's filter
   SquareMasks masks;

@@ -292,6 +292,13 @@ void read_layers(Json json, FrameRecord& frame) {
     frame.verdicts.push_back(corner.verdict);
     frame.reasons.push_back(corner.reason);
   }
+  if (const std::optional<Json> odds = find(json, "log_odds")) {
+    within(".log_odds", [&] {
+      const JsonList list = list_of(*odds, "a list of numbers");
+      require(list.size() == frame.corners_px.size(), "a number for each corner");
+      for (const Json item : list) read(item, frame.log_odds.emplace_back());
+    });
+  }
   if (const std::optional<Json> signatures = find(json, "signatures")) {
     within(".signatures",
            [&] { frame.signatures = signatures_of(*signatures, frame.corners_px.size()); });

@@ -67,6 +67,14 @@ void append(std::string& out, const Eigen::MatrixBase<Derived>& numbers) {
   }
   out += ']';
 }
+void append(std::string& out, const std::vector<float>& numbers) {
+  out += '[';
+  for (const float number : numbers) {
+    if (out.back() != '[') out += ',';
+    append(out, std::round(100 * double{number}) / 100);
+  }
+  out += ']';
+}
 void append(std::string& out, std::span<const Vec2> points) {
   out += '[';
   for (const Vec2& point : points) {
@@ -221,6 +229,7 @@ std::string layers_line(const FrameRecord& frame) {
     append_member(out, "frame", "t_ns", frame.t_ns);
     append_motion(out, "told_motion", frame.motion);
     append_columns(out, "corners", corner_rows(frame));
+    if (!frame.log_odds.empty()) append_member(out, "frame", "log_odds", frame.log_odds);
     if (!frame.signatures.empty()) append_member(out, "frame", "signatures", frame.signatures);
     append_columns(out, "normal_edges", layers.normal_edges);
     append_columns(out, "rebel_edges", layers.rebel_edges);

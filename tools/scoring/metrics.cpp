@@ -23,6 +23,7 @@ constexpr std::array kInAll{Table::suite, Table::report, Table::worlds, Table::d
 constexpr std::array kInWorlds{Table::suite, Table::report, Table::worlds};
 constexpr std::array kInSuites{Table::suite, Table::report};
 constexpr std::array kInReport{Table::report}, kInDetectors{Table::detectors};
+constexpr std::array kInMeasures{Table::report, Table::detectors};
 ///@}
 
 constexpr Scale kShare{"", Direction::higher, 0.01, 0, 2};
@@ -116,6 +117,13 @@ std::vector<Metric> rebel_metrics() {
        "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
        "paper's rule, which needs N sightings; 0 or 1 are possible by the default",
        kInSuites},
+      {"rebel.latency_ms_median", [](auto& s) { return median(s.objects.latencies_ms); },
+       lower("ms", 20, 0), "corner latency", "rebel.latency_frames_median as time"},
+      {"rebel.average_precision", [](auto& s) { return s.movers.corner_precision; }, kShare,
+       "corner AP",
+       "average precision of corners by falling log odds. As COCO's, over the corners that recall "
+       "counts and the fixed ones; null for detectors without log odds",
+       kInReport},
       {"rebel.false_objects_per_100_frames",
        [](auto& s) {
          return ratio_of_circles(s, 100.0 * s.objects.false_circles, s.objects.frames);
@@ -210,6 +218,79 @@ std::vector<Metric> square_metrics() {
        "eligible boxes, over all frames"},
       {"truth.objects", [](auto& s) { return static_cast<double>(s.objects_seen.size()); }, kCount,
        "", "objects seen in at least one frame"},
+  };
+}
+
+// ---- Movers, by the measures of the literature
+
+Figure track(const Scores& s, double TrackMeasures::*measure) {
+  return s.movers.tracks ? Figure((*s.movers.tracks).*measure) : std::nullopt;
+}
+
+std::vector<Metric> mover_metrics() {
+  return {
+      {"mover.hota", [](auto& s) { return track(s, &TrackMeasures::hota); }, kShare, "HOTA",
+       "HOTA of the moving squares (Luiten et al. 2021). Boxes are the eligible ones of objects "
+       "that "
+       "move in the frame; squares on other boxes of movers are left out, as MOTChallenge leaves "
+       "out those on distractors",
+       kInMeasures},
+      {"mover.hota_detection", [](auto& s) { return track(s, &TrackMeasures::detection); }, kShare,
+       "", "DetA of mover.hota"},
+      {"mover.hota_association", [](auto& s) { return track(s, &TrackMeasures::association); },
+       kShare, "", "AssA of mover.hota"},
+      {"mover.mota", [](auto& s) { return track(s, &TrackMeasures::mota); }, kShare, "MOTA",
+       "MOTA at IoU 0.5 of the same boxes (Bernardin and Stiefelhagen 2008). Below 0 with more "
+       "faults than boxes"},
+      {"mover.idf1", [](auto& s) { return track(s, &TrackMeasures::idf1); }, kShare, "IDF1",
+       "IDF1 at IoU 0.5 of the same boxes (Ristani et al. 2016)", kInReport},
+      {"mover.identity_changes",
+       [](auto& s) {
+         return s.movers.tracks ? Figure(s.movers.tracks->identity_changes) : std::nullopt;
+       },
+       lower("", 0.9, 0), "", "IDSW of MOTA"},
+      {"mover.average_precision", [](auto& s) { return s.movers.box_precision; }, kShare, "box AP",
+       "AP at IoU 0.5 of the same boxes (COCO). By the mean log odds of a square's rebel corners; "
+       "null for detectors without log odds",
+       kInReport},
+      {"mover.detection_rate", [](auto& s) { return ratio(s.movers.detected, s.movers.boxes); },
+       kShare, "detected",
+       "share of the same boxes that are detected by the rule of event cameras' papers (Mitrokhin "
+       "et "
+       "al. 2018). A square covers over half of the box, and more of it than of what is round it",
+       kInMeasures},
+      {"mover.region_j", [](auto& s) { return mean(s.movers.region_j); }, kShare, "",
+       "J: IoU of the moving pixels with those of the moving squares' masks, outlines or boxes. "
+       "Mean "
+       "over frames with moving pixels (Perazzi et al. 2016)"},
+      {"mover.boundary_f", [](auto& s) { return mean(s.movers.boundary_f); }, kShare, "",
+       "F of the boundaries of the same pixels, within .008 of the picture's diagonal. Mean "
+       "likewise"},
+      {"mover.j_and_f",
+       [](auto& s) {
+         const Figure j = mean(s.movers.region_j), f = mean(s.movers.boundary_f);
+         return j && f ? Figure((*j + *f) / 2) : std::nullopt;
+       },
+       kShare, "J&F", "mean of mover.region_j and mover.boundary_f", kInMeasures},
+      {"mover.pixel_iou",
+       [](auto& s) {
+         return ratio(static_cast<double>(s.movers.common_px),
+                      static_cast<double>(s.movers.all_px));
+       },
+       kShare, "", "IoU of the same pixels of all frames together"},
+      {"mover.latency_ms_median", [](auto& s) { return median(s.movers.latencies_ms); },
+       lower("ms", 20, 0), "box latency",
+       "time from the first frame in which a corner of an object moves by 1 px until a moving "
+       "square "
+       "has an IoU of 0.5 with it. Median over the objects boxed, of movers with rebel corners in "
+       "at "
+       "least N frames",
+       kInMeasures},
+      {"mover.false_per_minute",
+       [](auto& s) { return ratio(60.0 * s.movers.false_tracks, s.movers.still_s); },
+       lower("per minute", 1, 1), "",
+       "moving squares in frames in which no object moves, each id once. Per minute of such "
+       "frames"},
   };
 }
 
@@ -451,6 +532,7 @@ const std::vector<Metric>& metrics() {
           "frames of the recording"}});
     add(rebel_metrics(), recording::Truth::nothing_moves);
     add(square_metrics(), recording::Truth::all);
+    add(mover_metrics(), recording::Truth::all);
     add(label_metrics());
     add(found_metrics());
     add(other_metrics());

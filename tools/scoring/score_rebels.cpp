@@ -104,7 +104,10 @@ std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame)
   }
   for (const int object : distinct) {
     const auto [entry, is_new] = detections_.try_emplace(object);
-    if (is_new) entry->second.first_distinct = frame.index;
+    if (is_new) {
+      entry->second.first_distinct = frame.index;
+      entry->second.first_distinct_ns = frame.t_ns;
+    }
     ++entry->second.distinct_frames;
   }
   const std::map<int, int> rebels = rebels_by_object(frame);
@@ -112,6 +115,8 @@ std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame)
     const auto found = detections_.find(object);
     if (found == detections_.end() || found->second.found_at || count < kCornersToFind) continue;
     found->second.found_at = frame.index;
+    found->second.latency_ms =
+        1e-6 * static_cast<double>(frame.t_ns - found->second.first_distinct_ns);
   }
   std::vector<CornerOutcome> outcomes = corner_outcomes(frame, detections_);
   last_ = score_of(frame, outcomes);
@@ -139,6 +144,7 @@ RebelObjectScore RebelScorer::objects() const {
     if (!detection.found_at) continue;
     ++score.found;
     score.latencies.push_back(*detection.found_at - detection.first_distinct);
+    score.latencies_ms.push_back(detection.latency_ms);
   }
   return score;
 }

@@ -21,6 +21,8 @@ struct ObjectDetection {
   int first_distinct = 0;       ///< k0: first frame with a corner of it that is labelled rebel
   int distinct_frames = 0;      ///< number of such frames
   std::optional<int> found_at;  ///< first frame from k0 on with `kCornersToFind` rebel corners
+  std::int64_t first_distinct_ns = 0;
+  double latency_ms = 0;  ///< time between the two frames
 };
 
 /// By object number; each object that is distinct in any frame so far.
@@ -56,11 +58,12 @@ struct RebelCornerScore {
 struct RebelObjectScore {
   int objects = 0;  ///< objects distinct in at least N frames
   int found = 0;
-  std::vector<double> latencies;  ///< per found object, frames from the first distinct one
-  int false_circles = 0;          ///< sum over `frames` of `false_circles`
-  int frames = 0;                 ///< number of frames checked for false circles
-  int seen = 0;     ///< moving objects with `kCornersToFind` rebel corners, over these frames
-  int circled = 0;  ///< `seen` ones with the centre of a rebel circle in their box
+  /// Per found object, from the first distinct frame.
+  std::vector<double> latencies, latencies_ms;
+  int false_circles = 0;  ///< sum over `frames` of `false_circles`
+  int frames = 0;         ///< number of frames checked for false circles
+  int seen = 0;           ///< moving objects with `kCornersToFind` rebel corners, over these frames
+  int circled = 0;        ///< `seen` ones with the centre of a rebel circle in their box
 };
 
 /// The outcome of each corner of a frame. \param detections up to this frame, or later.

@@ -35,21 +35,6 @@ constexpr int kMinCorners = 4;
 constexpr double kMinVisibleFraction = 0.5;
 ///@}
 
-/// Numbers of a frame's eligible objects: large, visible and with corners enough.
-std::set<int> eligible_objects(const recording::FrameRecord& frame) {
-  std::set<int> objects;
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
-    const auto corners =
-        std::ranges::count(frame.corner_truth, truth.object, &sim::CornerTruth::object);
-    if (area >= kMinArea_px2 && corners >= kMinCorners &&
-        truth.visible_fraction >= kMinVisibleFraction) {
-      objects.insert(truth.object);
-    }
-  }
-  return objects;
-}
-
 Doing doing_of(int object, const recording::FrameRecord& frame) {
   if (!std::ranges::find(frame.object_truth, object, &sim::ObjectTruth::object)->moving) {
     return Doing::resting;
@@ -142,6 +127,20 @@ void add_to(SquareCounts& sum, const SquareOutcomes& outcomes) {
 }
 
 }  // namespace
+
+std::set<int> eligible_objects(const recording::FrameRecord& frame) {
+  std::set<int> objects;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
+    const auto corners =
+        std::ranges::count(frame.corner_truth, truth.object, &sim::CornerTruth::object);
+    if (area >= kMinArea_px2 && corners >= kMinCorners &&
+        truth.visible_fraction >= kMinVisibleFraction) {
+      objects.insert(truth.object);
+    }
+  }
+  return objects;
+}
 
 Region region_of(const sim::Mask& mask) {
   Region region;

@@ -34,6 +34,9 @@ struct BoxPair {
   Id square = 0;
 };
 
+/// Numbers of a frame's eligible objects: large, visible and with corners enough.
+std::set<int> eligible_objects(const recording::FrameRecord& frame);
+
 /// Matches boxes and squares one to one, greedily by IoU. Ids break ties, so that the result does
 /// not depend on the order of the pairs.
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);

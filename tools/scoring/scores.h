@@ -8,6 +8,7 @@
 
 #include "tools/recording/recording.h"
 #include "tools/recording/warnings.h"
+#include "tools/scoring/score_movers.h"
 #include "tools/scoring/score_rebels.h"
 #include "tools/scoring/score_squares.h"
 
@@ -35,6 +36,7 @@ struct Scores {
   RebelCornerScore corners;
   RebelObjectScore objects;
   SquareScore squares;
+  MoverScore movers;
   LabelScore labels;
   bool tells_first_sightings = false;  ///< the reason `first_sighting` occurs
   std::set<int> objects_seen;

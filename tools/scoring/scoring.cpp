@@ -44,13 +44,19 @@ struct Scorer::State {
   Scores scores = {};  ///< without the members that the others determine
   RebelScorer rebels = {};
   SquareScorer squares = {};
+  MoverScorer movers;
   std::vector<Id> normal_edges = {};  ///< of the previous frame
 
   void add_edges(const recording::FrameRecord& frame);
 };
 
 Scorer::Scorer(const recording::RunInfo& run)
-    : state_(new State{.truth = run.truth, .warnings = recording::WarningWatch(run.truth)}) {
+    : state_(new State{
+          .truth = run.truth,
+          .warnings = recording::WarningWatch(run.truth),
+          .movers = MoverScorer(
+              run.camera ? std::optional(cv::Size(run.camera->width_px, run.camera->height_px))
+                         : std::nullopt)}) {
   state_->scores.detector = run.detector;
 }
 Scorer::~Scorer() = default;
@@ -73,6 +79,7 @@ FrameScore Scorer::add(const recording::FrameRecord& frame) {
   require_pairs(frame);
   FrameScore score{state_->rebels.add(frame), state_->rebels.last().overall};
   state_->squares.add(frame);
+  state_->movers.add(frame, score.outcomes);
   state_->warnings.add(frame);
   Scores& scores = state_->scores;
   scores.labels.add(frame);
@@ -99,6 +106,7 @@ Metrics Scorer::metrics(const std::optional<sim::Warnings>& world) const {
   scores.corners = state_->rebels.corners();
   scores.objects = state_->rebels.objects();
   scores.squares = state_->squares.score();
+  scores.movers = state_->movers.score();
   scores.warnings = warned(world);
   Metrics figures;
   for (const Metric& metric : scoring::metrics()) {

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Usage: field_measures.sh LCS WORK [COUNT]
+#
+# Scores COUNT worlds (default 20), installs TrackEval, pycocotools and scikit-learn in a separate folder,
+# and compares the measures. Exits with 77, skipped, if the libraries cannot be downloaded.
+set -euo pipefail
+lcs=$1 work=$2 count=${3:-20}
+here=$(dirname "${BASH_SOURCE[0]}")
+
+# shellcheck source=tests/long_test.sh
+. "$here/../long_test.sh"
+
+rm -rf "$work"
+mkdir -p "$work"
+python3 -m venv "$work/venv" 2>/dev/null ||
+  skip "the libraries need a virtual environment (Debian: python3-venv, which tools/test --all installs)"
+if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
+  --only-binary :all: pycocotools 'trackeval>=1.3' scikit-learn scikit-image opencv-python-headless >"$work/pip.log" 2>&1; then
+  cat "$work/pip.log"
+  if is_offline "$work/pip.log"; then
+    skip "the Python package registry is not reachable, so there are no libraries to compare with"
+  fi
+  fail "pip does not install pycocotools, trackeval, scikit-learn, scikit-image and opencv"
+fi
+"$lcs" suite --worlds train --count "$count" --keep all --out "$work/suite" --quiet >"$work/suite.log" || [[ $? -eq 1 ]]
+"$work/venv/bin/python" "$here/field_measures.py" "$work"/suite/runs/*/seed*

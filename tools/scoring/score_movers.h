@@ -1,0 +1,78 @@
+/// \file
+/// Scores a detector's moving squares and its log odds by the measures of the literature.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "tools/recording/recording.h"
+#include "tools/scoring/measures.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::scoring {
+
+struct MoverScore {
+  int boxes = 0;                        ///< eligible boxes of objects that move in the frame
+  int detected = 0;                     ///< those detected by the rule of event cameras' papers
+  std::optional<TrackMeasures> tracks;  ///< absent without such a box
+  /// \name Average precision by the detector's log odds; absent without them, or without positives.
+  ///@{
+  std::optional<double> corner_precision, box_precision;
+  ///@}
+  /// \name Of each frame with moving pixels; empty unless masks and picture size are known.
+  ///@{
+  std::vector<double> region_j, boundary_f;
+  ///@}
+  std::int64_t common_px = 0, all_px = 0;  ///< moving pixels, over these frames
+  std::vector<double> latencies_ms;        ///< from an object's first rebel corner to its box
+  double still_s = 0;                      ///< time in which no object moves
+  int false_tracks = 0;                    ///< squares with other ids that move in it
+};
+
+/// Scores a run frame by frame, in order. Keeps the overlaps of boxes, and for each frame two
+/// numbers.
+class MoverScorer {
+ public:
+  /// \param picture_px absent: unknown.
+  explicit MoverScorer(std::optional<cv::Size> picture_px) : picture_px_(picture_px) {}
+
+  /// \param outcomes of the frame's corners.
+  void add(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
+  MoverScore score() const;
+
+ private:
+  struct Box {
+    double odds;
+    bool right;
+  };
+  struct Wait {
+    std::int64_t since_ns;
+    int frames = 0;  ///< with a rebel corner
+    std::optional<double> boxed_ms;
+  };
+
+  void add_boxes(const recording::FrameRecord& frame);
+  void add_pixels(const recording::FrameRecord& frame);
+  void add_corners(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
+  void rank(const recording::FrameRecord& frame, const std::vector<const Square*>& squares,
+            const Eigen::MatrixXd& overlap);
+
+  std::optional<cv::Size> picture_px_;
+  MoverScore sums_;
+  std::set<int> moved_;         ///< objects that moved so far
+  std::map<int, Wait> waits_;   ///< by object, from its first rebel corner on
+  std::map<int, int> objects_;  ///< numbers from 0
+  std::map<Id, int> tracks_;
+  std::vector<FrameBoxes> frames_;
+  std::map<float, Found, std::greater<>> corners_;  ///< by log odds
+  std::vector<Box> boxes_;
+  std::set<Id> false_tracks_;
+  std::int64_t last_ns_ = 0;
+  bool has_odds_ = false, are_masks_known_ = true;
+};
+
+}  // namespace lcs::scoring
