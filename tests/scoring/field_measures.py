@@ -2,10 +2,11 @@
 
 Usage: field_measures.py RUN...
 
-RUN is a folder of lcs run with layers.jsonl and truth.jsonl. The boxes are chosen here anew, from
+RUN is the folder of a run with layers.jsonl and truth.jsonl. The boxes are chosen here anew, from
 tools/scoring/SCORING.md.
 """
 import contextlib
+import gzip
 import io
 import json
 import pathlib
@@ -28,7 +29,10 @@ def rows(columns):
 
 
 def lines(path):
-    return [json.loads(line) for line in open(path)]
+    """Of a file that lcs suite has compressed, or lcs run has not."""
+    packed = path.with_name(path.name + ".gz")
+    with gzip.open(packed, "rt") if packed.exists() else open(path) as file:
+        return [json.loads(line) for line in file]
 
 
 def iou(a, b):

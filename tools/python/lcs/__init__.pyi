@@ -360,6 +360,11 @@ class Result:
         Regions psi, whose corners were ignored: shape (1: circle, 2: rectangle), x, y, size_x, size_y.
         """
     @property
+    def log_odds(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        N float32: log odds that each corner moves by itself; empty with the presets lab and cars.
+        """
+    @property
     def outlines(self) -> list[numpy.typing.NDArray[numpy.float64]]:
         """
         For each square K x 2 float64: x, y of the convex hull of its edges, clockwise in the picture;
