@@ -38,6 +38,16 @@ inline std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
+/// The words between blanks, as views into the line.
+inline std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+    words.push_back(line.substr(0, line.find_first_of(" \t\r\v\f")));
+    line.remove_prefix(words.back().size());
+  }
+  return words;
+}
+
 /// The whole text as a number; absent if it is not a number, out of range or not finite.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {

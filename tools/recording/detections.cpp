@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,7 +18,6 @@
 #include "scenarios/input/message.h"
 #include "tools/files/csv.h"
 #include "tools/recording/coco_mask.h"
-#include "tools/recording/frame_detections.h"
 #include "tools/recording/recording_fields.h"
 
 namespace lcs::recording {
@@ -74,20 +72,14 @@ using Frames = std::map<int, FrameDetections>;  ///< by index
 
 /// \throws std::invalid_argument; the caller puts file and line before its message.
 FrameDetections& frame_of(std::string_view text, Frames& frames) {
-  const std::optional<int> index = files::number_in<int>(text);
-  if (!index) {
-    throw std::invalid_argument(
-        input::printable(fmt::format("the frame is '{}'; give its number", text)));
-  }
-  const auto found = frames.find(*index);
+  const int index = number<int>(text, "the frame", "give its number");
+  const auto found = frames.find(index);
   if (found != frames.end()) return found->second;
   if (frames.empty()) {
-    throw std::invalid_argument(
-        fmt::format("there is no frame {}: the sequence has none; leave its rows out", *index));
+    refuse("there is no frame {}: the sequence has none; leave its rows out", index);
   }
-  throw std::invalid_argument(
-      fmt::format("there is no frame {}: the sequence has {} to {}; give one of these", *index,
-                  frames.begin()->first, frames.rbegin()->first));
+  refuse("there is no frame {}: the sequence has {} to {}; give one of these", index,
+         frames.begin()->first, frames.rbegin()->first);
 }
 
 /// The image size; without a camera, the least size that holds the mask and all corners.
@@ -425,9 +417,7 @@ Detections read_detections(const std::filesystem::path& csv, Recording sequence)
     header_may_come = false;
     if (is_header) continue;
     try {
-      if (row.size() < 2) {
-        throw std::invalid_argument("a row begins with FRAME,TYPE; there is one field");
-      }
+      if (row.size() < 2) refuse("a row begins with FRAME,TYPE; there is one field");
       frame_of(row[0], frames).add(row[1], std::span(row).subspan(2));
     } catch (const std::invalid_argument& error) {
       throw input::Error(file.here(), error.what());

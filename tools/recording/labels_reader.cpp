@@ -91,12 +91,8 @@ void read_mot_row(std::string_view line, Numbered& numbered) {
 }
 
 void read_kitti_row(std::string_view line, Numbered& numbered) {
-  std::vector<std::string_view> fields;
-  for (std::string_view rest = files::trimmed(line); !rest.empty(); rest = files::trimmed(rest)) {
-    fields.push_back(rest.substr(0, rest.find_first_of(" \t")));
-    rest.remove_prefix(fields.back().size());
-  }
-  const LabelRow row(fields, 10, "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM");
+  const LabelRow row(files::words_of(line), 10,
+                     "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM");
   const double left = row.number(6, "the left side"), top = row.number(7, "the top");
   LabelledBox box =
       box_of(row.whole(1, "the id", -1, kMostPictures), left, top,

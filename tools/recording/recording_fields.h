@@ -71,10 +71,9 @@ struct MaskRow {
   sim::PixelRuns mask;
 };
 
-/// A row of alpha, with only its valid sightings.
-struct ChainRow {
-  std::vector<Vec2> sightings;
-  double off_field_px = 0;
+/// The valid sightings of a row of alpha.
+struct Sightings {
+  Chain& chain;
 };
 
 void pair(const char* x, const char* y, Vec2& numbers, auto& visit) {
@@ -100,10 +99,9 @@ void fields(Eigen::Vector2f& place, auto&& visit) {
   visit("y", place.y());
 }
 
-void fields(ChainRow& chain, auto&& visit) {
-  auto& [sightings, off_field_px] = chain;
-  visit("sightings", sightings);
-  visit("off_field_px", off_field_px);
+void fields(Chain& chain, auto&& visit) {
+  visit("sightings", Sightings{chain});
+  visit("off_field_px", chain.off_field_px);
 }
 
 void fields(Edge& edge, auto&& visit) {

@@ -31,8 +31,12 @@ using JsonList = simdjson::dom::array;
 constexpr int kLongest_px = 1 << 20;
 
 /// \throws std::runtime_error; the caller puts the place before its message.
+template <class... Arguments>
+[[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  throw std::runtime_error(fmt::format(text, std::forward<Arguments>(arguments)...));
+}
 void require(bool condition, const char* what) {
-  if (!condition) throw std::runtime_error(fmt::format("is not {}", what));
+  if (!condition) refuse("is not {}", what);
 }
 
 /// Calls `use`; prefixes its errors with their place, as ".corners.x[3] is not a number".
@@ -42,7 +46,7 @@ void within(const std::string& place, const auto& use) {
   } catch (const std::runtime_error& error) {
     const std::string_view what = error.what();
     const bool goes_on = what.starts_with('.');
-    throw std::runtime_error(fmt::format("{}{}{}", place, goes_on ? "" : " ", what));
+    refuse("{}{}{}", place, goes_on ? "" : " ", what);
   }
 }
 
@@ -55,7 +59,7 @@ std::optional<Json> find(Json json, const char* key) {
 Json member(Json json, const char* key) {
   require(json.is_object(), "an object");
   const std::optional<Json> found = find(json, key);
-  if (!found) throw std::runtime_error(fmt::format("has no {}", key));
+  if (!found) refuse("has no {}", key);
   return *found;
 }
 
@@ -111,8 +115,7 @@ void read(Json json, Enum& value) {
   read(json, text);
   const auto found = std::ranges::find(names, text);
   if (found == names.end() || text.empty()) {
-    throw std::runtime_error(
-        input::printable(fmt::format("is the unknown word '{}'", text)));  // NUL would end it
+    refuse("is the unknown word '{}'", input::printable(text));  // NUL would end it
   }
   value = static_cast<Enum>(found - names.begin());
 }
@@ -125,20 +128,19 @@ void read(Json json, std::span<double> values) {
   for (const Json item : list) read(item, values[i++]);
 }
 
-void read(Json json, std::vector<Vec2>& points) {
+/// \return how many points there are, of those that there is room for.
+int read_points(Json json, std::span<Vec2> points) {
   const JsonList list = list_of(json, "a list of points");
-  points.reserve(list.size());
-  for (const Json item : list) read(item, std::span(points.emplace_back().data(), 2));
+  if (list.size() > points.size()) refuse("has over {} points", points.size());
+  int count = 0;
+  for (const Json item : list) read(item, std::span(points[count++].data(), 2));
+  return count;
 }
-
 void read(Json json, Form<Outline> outline) {
-  std::vector<Vec2> points;
-  read(json, points);
-  if (std::ssize(points) > Outline::kMost) {
-    throw std::runtime_error(fmt::format("has over {} points", Outline::kMost));
-  }
-  outline.value.count = static_cast<int>(points.size());
-  std::ranges::copy(points, outline.value.places.begin());
+  outline.value.count = read_points(json, outline.value.places);
+}
+void read(Json json, Sightings valid) {
+  valid.chain.count = read_points(json, valid.chain.sightings);
 }
 
 /// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
@@ -152,7 +154,7 @@ void read(Json json, Form<sim::PixelRuns> runs) {
       runs.value.push_back(static_cast<std::uint32_t>(run));
     }
   } catch (const std::invalid_argument&) {
-    throw std::runtime_error("is not the word of a mask");
+    refuse("is not the word of a mask");
   }
 }
 
@@ -177,7 +179,7 @@ void read(Json json, std::vector<Item>& items) {
   std::vector<JsonList::iterator> cells;  // the next of each column
   for (const std::optional<JsonList>& column : columns) {
     if (column && column->size() != first.size()) {
-      throw std::runtime_error("has columns that differ in length");
+      refuse("has columns that differ in length");
     }
     cells.push_back(column.value_or(first).begin());
   }
@@ -190,7 +192,7 @@ void read(Json json, std::vector<Item>& items) {
       try {
         read(*cells[place], value);
       } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format(".{}[{}] {}", name, row, error.what()));
+        refuse(".{}[{}] {}", name, row, error.what());
       }
       ++cells[place];
     });
@@ -224,8 +226,7 @@ std::vector<Item> read_masks(Json json, const char* key, bool may_lack) {
     for (const std::uint32_t run : item.mask) sum += run;
     if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px ||
         sum != width * height) {
-      throw std::runtime_error(
-          fmt::format(".{}.mask[{}] is not as large as its box", key, &item - items.data()));
+      refuse(".{}.mask[{}] is not as large as its box", key, &item - items.data());
     }
   }
   return items;
@@ -269,20 +270,6 @@ std::vector<Signature> signatures_of(Json json, std::size_t corners) {
   return signatures;
 }
 
-std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
-  std::vector<Chain> chains;
-  for (const ChainRow& row : rows) {
-    Chain& chain = chains.emplace_back();
-    if (row.sightings.size() > chain.sightings.size()) {
-      throw std::runtime_error("chains has one with too many sightings");
-    }
-    std::ranges::copy(row.sightings, chain.sightings.begin());
-    chain.off_field_px = row.off_field_px;
-    chain.count = static_cast<int>(row.sightings.size());
-  }
-  return chains;
-}
-
 void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "index", frame.index);
   read_member(json, "t_ns", frame.t_ns);
@@ -312,7 +299,7 @@ void read_layers(Json json, FrameRecord& frame) {
   if (find(json, "gaps")) read_member(json, "gaps", frame.gaps.emplace());
   read_member(json, "ignored", frame.paper.ignored);
   read_member(json, "collectors", frame.paper.collectors);
-  frame.paper.chains = chains_of(read_columns<ChainRow>(json, "chains"));
+  read_member(json, "chains", frame.paper.chains);
   if (find(json, "masks")) {
     for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
       frame.masks[row.square] = {
@@ -327,7 +314,7 @@ void read_layers(Json json, FrameRecord& frame) {
 void read_truth(Json json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
-  if (index != frame.index) throw std::runtime_error("index differs from the layers' index");
+  if (index != frame.index) refuse("index differs from the layers' index");
   read_member(json, "true_motion", frame.true_motion);
   read_member(json, "corners", frame.corner_truth);
   frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
@@ -515,11 +502,9 @@ const FrameRecord* SeenReader::at(std::int64_t t_ns) {
       read_member(json, "truth", frame.corner_truth);
       frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
       if (frame.corner_truth.size() != frame.corners_px.size()) {
-        throw std::runtime_error("truth is of another number of corners");
+        refuse("truth is of another number of corners");
       }
-      if (frame_ && frame.t_ns <= frame_->t_ns) {
-        throw std::runtime_error("t_ns is not later than in the line before");
-      }
+      if (frame_ && frame.t_ns <= frame_->t_ns) refuse("t_ns is not later than in the line before");
     });
     if (!is_there) return nullptr;
     frame_ = std::move(frame);

@@ -86,6 +86,9 @@ void append(std::string& out, std::span<const Vec2> points) {
 void append(std::string& out, Form<Outline> outline) {
   append(out, std::as_const(outline.value).vertices());
 }
+void append(std::string& out, Sightings valid) {
+  append(out, std::span<const Vec2>(valid.chain.sightings).first(valid.chain.count));
+}
 
 void append(std::string& out, Form<sim::PixelRuns> runs) {
   append(out, packed_runs(runs.value));
@@ -177,15 +180,6 @@ std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
   return rows;
 }
 
-std::vector<ChainRow> chain_rows(const std::vector<Chain>& chains) {
-  std::vector<ChainRow> rows;
-  for (const Chain& chain : chains) {
-    rows.push_back(
-        {{chain.sightings.begin(), chain.sightings.begin() + chain.count}, chain.off_field_px});
-  }
-  return rows;
-}
-
 std::vector<MaskRow> mask_rows(const SquareMasks& masks) {
   std::vector<MaskRow> rows;
   for (const auto& [square, mask] : masks) {
@@ -239,7 +233,7 @@ std::string layers_line(const FrameRecord& frame) {
     if (frame.gaps) append_columns(out, "gaps", *frame.gaps);
     append_columns(out, "ignored", frame.paper.ignored);
     append_columns(out, "collectors", frame.paper.collectors);
-    append_columns(out, "chains", chain_rows(frame.paper.chains));
+    append_columns(out, "chains", frame.paper.chains);
     if (!frame.masks.empty()) append_columns(out, "masks", mask_rows(frame.masks));
   });
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <span>
 #include <utility>
 
@@ -15,7 +16,7 @@
 namespace lcs::recording {
 namespace {
 
-using Pixel = Eigen::Vector2i;
+using Pixel = cv::Point;
 
 constexpr std::size_t kFewestCorners = 20;  // fewest corners for judging an image
 constexpr int kSame_px = 1;  // largest offset in x and y between the same corner in two frames
@@ -24,49 +25,35 @@ Pixel pixel_of(const Eigen::Vector2f& corner) {
   return {static_cast<int>(std::lround(corner.x())), static_cast<int>(std::lround(corner.y()))};
 }
 
-/// A pixel map of an image's corners.
-class Places {
- public:
-  explicit Places(std::span<const Eigen::Vector2f> corners) {
-    for (const Eigen::Vector2f& corner : corners) size_ = size_.cwiseMax(pixel_of(corner));
-    size_ += Pixel::Ones();
-    has_corner_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()),
-                       0);
-    for (const Eigen::Vector2f& corner : corners) {
-      for (int dy = -kSame_px; dy <= kSame_px; ++dy) {
-        for (int dx = -kSame_px; dx <= kSame_px; ++dx) {
-          const Pixel near = pixel_of(corner) + Pixel(dx, dy);
-          if (holds(near)) has_corner_[index(near)] = 1;
-        }
-      }
-    }
+/// Not 0 at the pixels on which a corner is, up to `kSame_px`.
+cv::Mat1b places_of(std::span<const Eigen::Vector2f> corners) {
+  Pixel most;
+  for (const Eigen::Vector2f& corner : corners) {
+    const Pixel pixel = pixel_of(corner);
+    most = {std::max(most.x, pixel.x), std::max(most.y, pixel.y)};
   }
+  cv::Mat1b places(most.y + 1, most.x + 1, std::uint8_t{0});
+  const cv::Rect all({}, places.size());
+  const cv::Size around(2 * kSame_px + 1, 2 * kSame_px + 1);
+  for (const Eigen::Vector2f& corner : corners) {
+    places(cv::Rect(pixel_of(corner) - Pixel(kSame_px, kSame_px), around) & all) = 1;
+  }
+  return places;
+}
 
-  /// Share of `pixels` that lie on corners after a shift by `by`; those shifted out of the image
-  /// are left out. 0 if half of them or more are.
-  double share(std::span<const Pixel> pixels, const Pixel& by) const {
-    std::size_t inside = 0, met = 0;
-    for (const Pixel& pixel : pixels) {
-      const Pixel moved = pixel + by;
-      if (!holds(moved)) continue;
-      ++inside;
-      met += has_corner_[index(moved)];
-    }
-    if (2 * inside <= pixels.size()) return 0;
-    return static_cast<double>(met) / static_cast<double>(inside);
+/// Share of `pixels` that lie on corners after a shift by `by`; those shifted out of the image are
+/// left out. 0 if half of them or more are.
+double share(std::span<const Pixel> pixels, const Pixel& by, const cv::Mat1b& places) {
+  const cv::Rect all({}, places.size());
+  std::size_t inside = 0, met = 0;
+  for (const Pixel& pixel : pixels) {
+    if (!all.contains(pixel + by)) continue;
+    ++inside;
+    met += places(pixel + by);
   }
-
- private:
-  bool holds(const Pixel& pixel) const {
-    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < size_.x() && pixel.y() < size_.y();
-  }
-  std::size_t index(const Pixel& pixel) const {
-    return static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(size_.x()) +
-           static_cast<std::size_t>(pixel.x());
-  }
-  Pixel size_ = Pixel::Zero();
-  std::vector<std::uint8_t> has_corner_;
-};
+  if (2 * inside <= pixels.size()) return 0;
+  return static_cast<double>(met) / static_cast<double>(inside);
+}
 
 /// A sample of corners, spread evenly over the list and so over the image.
 std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
@@ -81,11 +68,11 @@ std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
 bool stands(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vector2f> now) {
   constexpr double kNearlyAll = 0.6, kTimesChance = 2;
   if (std::min(before.size(), now.size()) < kFewestCorners) return false;
-  const Places places(now);
+  const cv::Mat1b places = places_of(now);
   const std::vector<Pixel> corners = some(before);
-  const double chance = 0.5 * (places.share(corners, {11, 7}) + places.share(corners, {-9, -13}));
-  const double share = places.share(corners, {0, 0});
-  return share >= kNearlyAll && share >= kTimesChance * chance;
+  const double chance = 0.5 * (share(corners, {11, 7}, places) + share(corners, {-9, -13}, places));
+  const double still = share(corners, {}, places);
+  return still >= kNearlyAll && still >= kTimesChance * chance;
 }
 
 /// Whether most corners have moved by one vector of at least 3 px.
@@ -93,20 +80,20 @@ bool shifted(std::span<const Eigen::Vector2f> before, std::span<const Eigen::Vec
   constexpr int kReach_px = 48, kLeast_px = 3;
   constexpr double kMost = 0.5, kTimesOther = 1.6;
   if (std::min(before.size(), now.size()) < kFewestCorners) return false;
-  const Places places(now);
+  const cv::Mat1b places = places_of(now);
   const std::vector<Pixel> corners = some(before);
   double best = 0, sum = 0;
   int vectors = 0;
   constexpr int kStep_px = 2 * kSame_px + 1;
   for (int y = -kReach_px; y <= kReach_px; y += kStep_px) {
     for (int x = -kReach_px; x <= kReach_px; x += kStep_px) {
-      const double share = places.share(corners, {x, y});
-      sum += share;
+      const double moved = share(corners, {x, y}, places);
+      sum += moved;
       ++vectors;
-      if (std::hypot(x, y) >= kLeast_px) best = std::max(best, share);
+      if (std::hypot(x, y) >= kLeast_px) best = std::max(best, moved);
     }
   }
-  const double still = places.share(corners, {0, 0});
+  const double still = share(corners, {}, places);
   return best >= kMost && best >= kTimesOther * std::max(still, sum / vectors);
 }
 
