@@ -10,7 +10,8 @@ namespace lcs {
 
 /// The upper one of the two middle values of an even number. Reorders the values; needs at least
 /// one.
-inline double median(std::vector<double>& values) {
+template <class Number>
+Number median(std::vector<Number>& values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

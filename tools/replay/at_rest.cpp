@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -153,12 +152,12 @@ Beginning beginning_of(std::span<const sim::ImuSample> readings) {
   return {middle_mean(forces_mps2), middle_mean(rates_radps), static_cast<int>(rates_radps.size())};
 }
 
-TrueState start_of(std::span<const sim::ImuSample> readings, const scenario::RecordingSource& asked,
+TrueState start_of(std::span<const sim::ImuSample> readings, const RecordingSource& asked,
                    const Eigen::Matrix3d& R_BC, double gravity_mps2, bool is_upright,
                    Tally& tally) {
   if (readings.empty()) {
-    throw std::runtime_error(
-        "the IMU has no reading from the first picture on; give both the times of one clock");
+    refuse({},
+           "the IMU has no reading from the first picture on; give both the times of one clock");
   }
   const double speed_mps = asked.speed_mps.value_or(0);
   // A speed rules out a rest that nobody states.

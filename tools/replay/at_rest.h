@@ -54,7 +54,7 @@ struct TrueState {
 /// for the given or detected time, else at the given speed along the optical axis. \param readings
 /// by time, at least one. \param is_upright the body's z is up unless a rest says
 ///   more exactly where up is.
-TrueState start_of(std::span<const sim::ImuSample> readings, const scenario::RecordingSource& asked,
+TrueState start_of(std::span<const sim::ImuSample> readings, const RecordingSource& asked,
                    const Eigen::Matrix3d& R_BC, double gravity_mps2, bool is_upright, Tally& tally);
 
 /// Sets the motion by dead reckoning from the start on, without its biases.

@@ -1,13 +1,9 @@
 // ROS 1 bags, rosbag2 (.db3) and MCAP. read_bag.py writes them as a folder in EuRoC's layout, by
 // PyPI's rosbags, and that folder is read.
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <memory>
-#include <set>
 #include <system_error>
 
 #include "scenarios/input/input_file.h"
@@ -48,8 +44,8 @@ void run_reader(const std::vector<std::string>& arguments, int out, const input:
   if (said.starts_with(bag + ": ") && fs::absolute(where.file) == bag) {
     said.erase(0, bag.size() + 2);
   }
-  throw input::Error(where, said.empty() ? "the bag was not read to its end; run it again"
-                                         : input::one_line(said));
+  refuse(where, "{}",
+         said.empty() ? "the bag was not read to its end; run it again" : input::one_line(said));
 }
 
 }  // namespace
@@ -63,17 +59,17 @@ bool is_bag(const fs::path& path) {
   });
 }
 
-Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
+Recorded read_bag(const RecordingSource& asked, bool exact_motion) {
   const auto folder = temporary_folder();
   const fs::path made = *folder / "recording";
-  const scenario::RecordingSource::Topics& topics = asked.topics;
+  const RecordingSource::Topics& topics = asked.topics;
   std::vector<std::string> arguments{fs::absolute(asked.path).string()};
   if (topics.image.empty()) {
     run_reader(arguments, STDOUT_FILENO, asked.source);
-    throw input::Error(asked.source,
-                       "{} is a bag with the topics above; name the topic of its pictures "
-                       "(topics.image, or --image-topic), and of an IMU or poses",
-                       asked.path.string());
+    refuse(asked.source,
+           "{} is a bag with the topics above; name the topic of its pictures (topics.image, or "
+           "--image-topic), and of an IMU or poses",
+           asked.path.string());
   }
   const std::pair<const char*, const std::string&> options[] = {
       {"--image-topic", topics.image},       {"--camera-info-topic", topics.camera_info},
@@ -87,7 +83,7 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
   arguments.push_back("--out=" + made.string());
   run_reader(arguments, -1, asked.source);
 
-  scenario::RecordingSource inner = asked;
+  RecordingSource inner = asked;
   inner.path = made;
   inner.camera.clear();
   const bool by_imu = topics.poses.empty() && fs::exists(made / "mav0" / "imu0");
@@ -98,7 +94,7 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
     try {
       Recorded read = read_euroc(inner, exact_motion);
       if (by_poses) {
-        move_by_poses(inner, true, read);
+        move_by_poses(inner, made / kPosesFile, true, read);
         read.took.insert({"topics.poses", "topics.world"});
       }
       return read;
@@ -109,13 +105,13 @@ Recorded read_bag(const scenario::RecordingSource& asked, bool exact_motion) {
       said.erase(0, said.find(": ") + 2);
       said.erase(std::min(said.size(), said.find(", or put their unit into the header")));
       const std::string& topic = by_poses ? topics.poses : topics.imu;
-      throw input::Error(asked.source, "{}, of the bag's {}: correct the bag's messages", said,
-                         topic.empty() ? "only such topic" : topic);
+      refuse(asked.source, "{}, of the bag's {}: correct the bag's messages", said,
+             topic.empty() ? "only such topic" : topic);
     }
   }();
   recorded.keep = folder;
   files::read_json(made / "bag.json", kMessages, [&](const files::JsonNode& json) {
-    json["told"].each([&](const files::JsonNode& line) { recorded.tally.tell(line.text()); });
+    json["told"].each([&](const files::JsonNode& line) { recorded.tally.tell("{}", line.text()); });
     if (json.has("bayer")) recorded.format.demosaic = demosaic_of(json["bayer"].text());
     return 0;
   });

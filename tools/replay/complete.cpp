@@ -1,33 +1,24 @@
 // Completes a layout's data by the user's input.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <system_error>
-#include <utility>
 
 #include "scenes/worlds/worlds.h"
 #include "sim/base/rotation.h"
-#include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
-#include "tools/replay/motion_source.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/text_table.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
 namespace {
 
-constexpr const char* kOutsideOfPoses = "pictures are outside of the poses' time and are left out";
 constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
 
 /// \return whether the frames' times are known, not only their order.
-bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
+bool set_times(const RecordingSource& asked, Recorded& recorded) {
   if (asked.times) {
     time_by_table(*asked.times, asked.time_unit, recorded);
     recorded.took.insert("time_unit");
@@ -41,10 +32,10 @@ bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
       recorded.tally.tell("fps has no effect: the recording itself has times of that rate");
       return true;
     }
-    throw input::Error(asked.source,
-                       "the recording itself says when its pictures were taken, {:.3g} a second, "
-                       "and fps says {:.3g}; remove fps",
-                       own_hz.value_or(0), *asked.fps);
+    refuse(asked.source,
+           "the recording itself says when its pictures were taken, {:.3g} a second, and fps says "
+           "{:.3g}; remove fps",
+           own_hz.value_or(0), *asked.fps);
   }
   const std::optional<double> fps = asked.fps ? asked.fps : recorded.fps;
   if (fps) time_by(*fps, recorded);
@@ -52,7 +43,7 @@ bool set_times(const scenario::RecordingSource& asked, Recorded& recorded) {
 }
 
 /// Keeps the requested frames.
-void choose(const scenario::RecordingSource& asked, int most, std::vector<RecordedFrame>& frames) {
+void choose(const RecordingSource& asked, int most, std::vector<RecordedFrame>& frames) {
   const auto every = static_cast<std::size_t>(asked.every);
   std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
   if (most > 0 && frames.size() > static_cast<std::size_t>(most)) {
@@ -77,9 +68,9 @@ std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const P
 std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const PosesFile& file,
                                                      const Recorded& recorded) {
   if (!recorded.numbers.least && recorded.video.empty()) {
-    throw input::Error({path.string(), 0},
-                       "its rows state the numbers of their pictures, and the names of the "
-                       "pictures have none; give a row of 12 numbers for each picture");
+    refuse({path},
+           "its rows state the numbers of their pictures, and the names of the pictures have none; "
+           "give a row of 12 numbers for each picture");
   }
   std::map<std::size_t, std::int64_t> times_ns;
   for (const RecordedFrame& frame : recorded.frames) {
@@ -106,12 +97,13 @@ std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool o
 }
 
 /// Turns poses of the body into poses of the camera.
-void join_camera(const scenario::RecordingSource& asked, PosesFile& file, Recorded& recorded) {
+void join_camera(const RecordingSource& asked, const fs::path& path, PosesFile& file,
+                 Recorded& recorded) {
   const std::optional<sim::Pose> T_BC = camera_on_body(asked, recorded.T_BC, recorded);
   if (!T_BC) {
-    throw input::Error({asked.poses->string(), 0},
-                       "its poses are the body's (p_RS_R_x); give the camera's place on it, by a "
-                       "calibration with T_BS or T_cam_imu, or by mount");
+    refuse({path},
+           "its poses are the body's (p_RS_R_x); give the camera's place on it, by a calibration "
+           "with T_BS or T_cam_imu, or by mount");
   }
   for (auto& line : file.lines) {
     if (line) line->T_WC = line->T_WC * *T_BC;
@@ -119,16 +111,15 @@ void join_camera(const scenario::RecordingSource& asked, PosesFile& file, Record
 }
 
 /// Refuses a ground that would be above the picture or behind the camera.
-void require_ground_in_view(const scenario::RecordingSource& asked, const Recorded& recorded) {
+void require_ground_in_view(const RecordingSource& asked, const Recorded& recorded) {
   constexpr double kAbove = 0.2, kBehind = 0.8;  // of up, along y and z of the camera
   const auto up_C = asked.camera_height_m ? recorded.motion->up_C() : std::nullopt;
   if (!up_C || (up_C->y() < kAbove && up_C->z() < kBehind)) return;
-  throw input::Error(
-      asked.source,
-      "up is ({:.2f}, {:.2f}, {:.2f}) in the camera's axes (x right, y down, z ahead), so that the "
-      "ground would not be in the picture; accelerations of iOS (CoreMotion) have the other sign, "
-      "so change it; or correct the camera's place on the IMU, or remove camera_height",
-      up_C->x(), up_C->y(), up_C->z());
+  refuse(asked.source,
+         "up is ({:.2f}, {:.2f}, {:.2f}) in the camera's axes (x right, y down, z ahead), so that "
+         "the ground would not be in the picture; accelerations of iOS (CoreMotion) have the other "
+         "sign, so change it; or correct the camera's place on the IMU, or remove camera_height",
+         up_C->x(), up_C->y(), up_C->z());
 }
 
 /// Refuses readings whose axes are not the vehicle's, by where the accelerometer says up is.
@@ -140,15 +131,15 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs:
   if (up.z() > kUpright) return;
   const std::string file = path.string();
   if (up.z() < -kUpright) {
-    throw input::Error({file, 0},
-                       "its accelerations point down, along -z, and at rest they must point up; "
-                       "change their sign, or turn the axes so that z is up");
+    refuse({file},
+           "its accelerations point down, along -z, and at rest they must point up; change their "
+           "sign, or turn the axes so that z is up");
   }
-  throw input::Error({file, 0},
-                     "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, "
-                     "{:.2f}, {:.2f}) by its accelerations; turn them, or give the camera's place "
-                     "on the IMU by a calibration with T_BS or T_cam_imu",
-                     up.x(), up.y(), up.z());
+  refuse({file},
+         "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, {:.2f}, {:.2f}) "
+         "by its accelerations; turn them, or give the camera's place on the IMU by a calibration "
+         "with T_BS or T_cam_imu",
+         up.x(), up.y(), up.z());
 }
 
 /// From each pose to the next: m and rad.
@@ -191,7 +182,7 @@ void drop_held(std::vector<PosesMotion::CameraPose>& poses, Tally& tally) {
   poses = std::move(kept);
 }
 
-void move_by_imu(const scenario::RecordingSource& asked, Recorded& recorded) {
+void move_by_imu(const RecordingSource& asked, Recorded& recorded) {
   SensorReadings readings;
   recorded.took.insert("time_unit");
   const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
@@ -206,10 +197,9 @@ void move_by_imu(const scenario::RecordingSource& asked, Recorded& recorded) {
 }
 
 /// \param is_told whether the layout told already which of its motion's inputs it lacks.
-void set_motion(const scenario::RecordingSource& asked, bool times_known, bool is_told,
-                Recorded& recorded) {
+void set_motion(const RecordingSource& asked, bool times_known, bool is_told, Recorded& recorded) {
   if (asked.poses) {
-    move_by_poses(asked, times_known, recorded);
+    move_by_poses(asked, *asked.poses, times_known, recorded);
   } else if (asked.imu) {
     if (times_known) move_by_imu(asked, recorded);
   } else if (asked.speed_mps && motion_is_asked(asked)) {
@@ -224,20 +214,19 @@ void require_lens(const Lens& lens) {
   constexpr double kMostFocal_px = 1e6, kMostCentre_px = 1e5;
   const Eigen::Array2d focal(lens.fu_px, lens.fv_px), centre(lens.cu_px, lens.cv_px);
   if ((focal >= 1 && focal <= kMostFocal_px && centre.abs() <= kMostCentre_px).all()) return;
-  throw input::Error(lens.source,
-                     "a focal length of {}, {} px and a principal point at {}, {} px fit no "
-                     "camera; correct the calibration, or give focal",
-                     lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px);
+  refuse(lens.source,
+         "a focal length of {}, {} px and a principal point at {}, {} px fit no camera; correct "
+         "the calibration, or give focal",
+         lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px);
 }
 
-void set_lens(const scenario::RecordingSource& asked, Recorded& recorded) {
+void set_lens(const RecordingSource& asked, Recorded& recorded) {
   if (asked.calibration) {
     const SensorCalibration calibration = read_calibration(*asked.calibration, asked.camera);
     if (calibration.has_cameras) recorded.took.insert("camera");
     recorded.lens = calibration.lens;
     if (!recorded.lens) {
-      throw input::Error({asked.calibration->string(), 0},
-                         "holds no calibration of a camera; give one with intrinsics");
+      refuse({*asked.calibration}, "holds no calibration of a camera; give one with intrinsics");
     }
   }
   if (asked.focal_px) {
@@ -286,9 +275,9 @@ std::optional<scenario::Origin> origin_of(const fs::path& pictures) {
 }
 
 /// Refuses what was asked for and has no effect.
-void require_effects(const scenario::RecordingSource& asked, const RecordingLayout& layout,
-                     bool exact_motion, const Recorded& recorded) {
-  const scenario::RecordingSource::Topics& topics = asked.topics;
+void require_effects(const RecordingSource& asked, const RecordingLayout& layout, bool exact_motion,
+                     const Recorded& recorded) {
+  const RecordingSource::Topics& topics = asked.topics;
   const bool is_bag = layout.name == "bag";
   const bool has_own_lens = asked.focal_px || asked.calibration;
   const bool is_video = !recorded.video.empty();
@@ -331,12 +320,12 @@ void require_effects(const scenario::RecordingSource& asked, const RecordingLayo
     const bool is_of_bag = std::string_view(key).starts_with("topics.");
     const bool took = recorded.took.contains(key) && (is_bag || !is_of_bag);
     if (!is_asked || has_effect || took) continue;
-    throw input::Error(asked.source, "{} has no effect: {}; remove it", key, why);
+    refuse(asked.source, "{} has no effect: {}; remove it", key, why);
   }
 }
 
 /// Reads a layout. Each of its refusals names the folder that any recording can be turned into.
-Recorded read_layout(const RecordingLayout& layout, const scenario::RecordingSource& asked,
+Recorded read_layout(const RecordingLayout& layout, const RecordingSource& asked,
                      bool exact_motion) {
   try {
     return layout.read(asked, exact_motion);
@@ -345,12 +334,12 @@ Recorded read_layout(const RecordingLayout& layout, const scenario::RecordingSou
   } catch (const std::runtime_error& refusal) {
     const std::string said = refusal.what();
     const bool is_named = said.find("NEUTRAL.md") != said.npos;
-    throw input::Error({}, is_named ? said : fmt::format("{}; {}", said, kNeutralWay));
+    refuse({}, "{}", is_named ? said : fmt::format("{}; {}", said, kNeutralWay));
   }
 }
 
 /// With the files of a neutral folder (NEUTRAL.md) in place of keys that are not given.
-scenario::RecordingSource with_neutral_files(scenario::RecordingSource asked) {
+RecordingSource with_neutral_files(RecordingSource asked) {
   const auto take = [&](const char* name, std::optional<fs::path>& key) {
     const fs::path file = asked.path / name;
     if (!key && fs::exists(file)) key = file;
@@ -363,7 +352,7 @@ scenario::RecordingSource with_neutral_files(scenario::RecordingSource asked) {
 
 }  // namespace
 
-std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
+std::optional<sim::Pose> camera_on_body(const RecordingSource& asked,
                                         const std::optional<sim::Pose>& otherwise,
                                         Recorded& recorded) {
   if (asked.mount_rpy_rad) {
@@ -376,7 +365,7 @@ std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
   return stated ? stated : otherwise;
 }
 
-void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded) {
+void take_time_offset(const RecordingSource& asked, Recorded& recorded) {
   std::optional<double> offset_s = asked.time_offset_s;
   if (!offset_s && asked.calibration) {
     offset_s = read_calibration(*asked.calibration, asked.camera).time_offset_s;
@@ -386,10 +375,11 @@ void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded
   for (RecordedFrame& frame : recorded.frames) frame.t_ns += offset_ns;
 }
 
-void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Recorded& recorded) {
-  PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);
+void move_by_poses(const RecordingSource& asked, const fs::path& path, bool times_known,
+                   Recorded& recorded, const std::optional<Vector3d>& up_W, const sim::Pose& T_PC) {
+  PosesFile file = read_poses(path, asked.time_unit, recorded.tally);
   if (file.timed) recorded.took.insert("time_unit");
-  if (file.of_body) join_camera(asked, file, recorded);
+  if (file.of_body) join_camera(asked, path, file, recorded);
   const bool by_line = !file.timed || !times_known;
   if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
   if (!times_known && file.lines.size() != recorded.frames.size()) {
@@ -399,57 +389,40 @@ void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Rec
                     file.lines.size(), recorded.frames.size()));
     return;
   }
-  auto poses = file.numbered ? poses_by_number(*asked.poses, file, recorded)
-               : by_line     ? poses_by_line(*asked.poses, file, recorded)
+  auto poses = file.numbered ? poses_by_number(path, file, recorded)
+               : by_line     ? poses_by_line(path, file, recorded)
                              : poses_by_time(file, recorded.has_own_clock);
-  if (!by_line && !file.numbered) {
-    require_start(recorded, poses.back().t_ns - poses.front().t_ns, *asked.poses);
-  }
-  if (!times_known) {
-    sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
-  }
-  // KITTI's world frame is the first camera frame.
-  const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
-  move_along(std::move(poses), level, asked, *asked.poses, kOutsideOfPoses, recorded);
-}
-
-void move_by_timed_poses(const scenario::RecordingSource& asked, const fs::path& file,
-                         const Vector3d& up_W, Recorded& recorded) {
-  const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
-  recorded.took.insert("time_unit");
-  if (!poses.timed) {
-    throw input::Error({file.string(), 0},
-                       "its poses have no times; give them as TUM has them, or poses of your own");
-  }
-  move_along(poses_by_time(poses, false), up_W, asked, file, kOutsideOfPoses, recorded);
-}
-
-void move_along(std::vector<PosesMotion::CameraPose> poses, const std::optional<Vector3d>& level,
-                const scenario::RecordingSource& asked, const fs::path& file, const char* outside,
-                Recorded& recorded) {
   if (poses.empty()) {
-    throw input::Error({file.string(), 0},
-                       recorded.tally.before(
-                           "none of the poses belongs to a picture; give a line for each picture"));
+    refuse({path}, "{}",
+           recorded.tally.before(
+               "none of the poses belongs to a picture; give a line for each picture"));
   }
-  sort_by_time(poses, "poses", file.string(), recorded.tally);
+  if (!by_line && !file.numbered) {
+    require_start(recorded, poses.back().t_ns - poses.front().t_ns, path);
+  }
+  if (!times_known) sort_by_time(recorded.frames, "pictures", path.string(), recorded.tally);
+  sort_by_time(poses, "poses", path.string(), recorded.tally);
   drop_held(poses, recorded.tally);
+  for (PosesMotion::CameraPose& pose : poses) pose.T_WC = pose.T_WC * T_PC;
   const std::vector<double> ways = ways_of(poses);
   const double usual_way = usual(ways).value_or(0);
-  ReadingTimes times{stamps_of(poses), "poses", outside};
+  ReadingTimes times{stamps_of(poses), "poses",
+                     "pictures are outside of the poses' time and are left out"};
   times.is_known = [&](std::size_t i) { return ways[i - 1] <= 1.5 * usual_way; };
-  std::optional<Vector3d> up_W = level;
+  std::optional<Vector3d> up = up_W;
+  // KITTI's world frame is the first camera frame.
+  if (!up && !file.timed) up = Vector3d(0, -1, 0);
   // The vehicle on which the camera is mounted is upright at the first pose.
   if (asked.mount_rpy_rad) {
     if (asked.camera_height_m) recorded.took.insert("mount");
-    up_W = poses.front().T_WC.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
+    up = poses.front().T_WC.R * camera_mount(*asked.mount_rpy_rad).row(2).transpose();
   }
-  recorded.motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
+  recorded.motion = std::make_unique<PosesMotion>(std::move(poses), up);
   keep_within(times, recorded);
 }
 
-void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
-                      SensorReadings readings, Recorded& recorded) {
+void move_by_readings(const RecordingSource& asked, const fs::path& file, SensorReadings readings,
+                      Recorded& recorded) {
   take_imu_noise(asked, recorded);
   take_time_offset(asked, recorded);
   // Pictures without a clock begin at the first reading.
@@ -493,7 +466,7 @@ void move_from(const TrueState& start, sim::Calibration calibration, SensorReadi
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }
 
-void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) {
+void take_imu_noise(const RecordingSource& asked, Recorded& recorded) {
   if (!asked.imu_calibration && recorded.settings.imu.noise == scenario::ImuNoise{}) {
     recorded.tally.tell("the noise of the IMU is not stated, and counts as none: imu_calibration");
   }
@@ -501,8 +474,8 @@ void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded) 
   recorded.took.insert("imu_calibration");
   const auto noise = read_calibration(*asked.imu_calibration).noise;
   if (!noise) {
-    throw input::Error({asked.imu_calibration->string(), 0},
-                       "holds no noise densities; give a file with them, as Kalibr's imu.yaml");
+    refuse({*asked.imu_calibration},
+           "holds no noise densities; give a file with them, as Kalibr's imu.yaml");
   }
   recorded.settings.imu.noise = *noise;
 }
@@ -511,17 +484,17 @@ void time_by(double fps, Recorded& recorded) {
   const PictureNumbers& all = recorded.numbers;
   if (all.least && *all.greatest - *all.least + 1 != all.pictures) {
     const std::string steps = fmt::format("them in steps of {}, missing ones too", all.step);
-    recorded.tally.tell(fmt::format(
-        "{} pictures have the numbers {} to {} in their names: fps counts {}", all.pictures,
-        *all.least, *all.greatest, all.step > 0 ? steps : "the pictures alone"));
+    recorded.tally.tell("{} pictures have the numbers {} to {} in their names: fps counts {}",
+                        all.pictures, *all.least, *all.greatest,
+                        all.step > 0 ? steps : "the pictures alone");
   }
   for (RecordedFrame& frame : recorded.frames) {
     const std::size_t place = all.step > 0 ? (*frame.named - *all.least) / all.step : frame.number;
     const double t_ns = static_cast<double>(place) * 1e9 / fps;
     if (!(t_ns <= static_cast<double>(kFarthest_ns))) {
-      throw std::runtime_error(fmt::format(
-          "at {} pictures a second the recording takes more than 146 years; give a higher fps",
-          fps));
+      refuse({},
+             "at {} pictures a second the recording takes more than 146 years; give a higher fps",
+             fps);
     }
     frame.t_ns = std::llround(t_ns);
   }
@@ -534,7 +507,7 @@ void time_by(double fps, Recorded& recorded) {
 }
 
 /// The properties of the pictures, with the user's in place of those that they show.
-void set_format(const scenario::RecordingSource& asked, Recorded& recorded) {
+void set_format(const RecordingSource& asked, Recorded& recorded) {
   std::vector<fs::path> files;
   for (const RecordedFrame& frame : recorded.frames) files.push_back(frame.picture);
   if (recorded.video.empty()) {
@@ -553,9 +526,9 @@ void set_format(const scenario::RecordingSource& asked, Recorded& recorded) {
 
 Recorded read_recorded(const scenario::Scenario& scenario) {
   const RecordingLayout& layout = layout_of(scenario.recording.value());
-  const scenario::RecordingSource asked = layout.name == "listed"
-                                              ? with_neutral_files(scenario.recording.value())
-                                              : scenario.recording.value();
+  const RecordingSource asked = layout.name == "listed"
+                                    ? with_neutral_files(scenario.recording.value())
+                                    : scenario.recording.value();
   const bool exact_motion = scenario.ego_motion == scenario::EgoMotionSource::truth;
   Recorded recorded = read_layout(layout, asked, exact_motion);
   recorded.settings.origin = origin_of(asked.path);
@@ -571,14 +544,13 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   set_lens(asked, recorded);
   if (recorded.motion) require_ground_in_view(asked, recorded);
   if (!recorded.lacks.empty()) {
-    throw input::Error(
-        asked.source,
-        "{} does not say {}; give these keys of recording, or the options of lcs replay; {}",
-        asked.path.string(), fmt::join(recorded.lacks, ", and "), kNeutralWay);
+    refuse(asked.source,
+           "{} does not say {}; give these keys of recording, or the options of lcs replay; {}",
+           asked.path.string(), fmt::join(recorded.lacks, ", and "), kNeutralWay);
   }
   choose(asked, scenario.frames, recorded.frames);
   if (recorded.frames.empty()) {
-    throw input::Error(asked.source, "no picture is left; give a smaller every");
+    refuse(asked.source, "no picture is left; give a smaller every");
   }
   set_format(asked, recorded);
   require_effects(asked, layout, exact_motion, recorded);

@@ -1,19 +1,12 @@
 // EuRoC ASL: mav0/ with cam0, imu0 and optionally a truth for the start; also from `lcs generate`.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 
 #include "sim/base/rotation.h"
-#include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/calibration.h"
-#include "tools/replay/motion_source.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/text_table.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -36,7 +29,7 @@ SensorCalibration calibration_in(const fs::path& sensor) {
 
 /// EuRoC's tables have ns, unless something else is stated.
 TableTimes times_of(const fs::path& sensor, const SensorCalibration& calibration,
-                    const scenario::RecordingSource& asked, double least_hz, double most_hz) {
+                    const RecordingSource& asked, double least_hz, double most_hz) {
   return {asked.time_unit,
           {least_hz, most_hz, calibration.rate_hz, (sensor / "sensor.yaml").string()},
           kNanosecond_ns};
@@ -64,10 +57,10 @@ void require_same(const fs::path& mav, const std::string& camera,
   const auto require = [&](bool same, const char* key) {
     if (same) return;
     const auto at = said.keys.find(key);
-    throw input::Error(at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
-                       "{0} is not as {1} of the sequence says; generate the sequence again, or "
-                       "take {1} away to replay it by its other files alone",
-                       key, sequence::kSettingsFile);
+    refuse(at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
+           "{0} is not as {1} of the sequence says; generate the sequence again, or take {1} away "
+           "to replay it by its other files alone",
+           key, sequence::kSettingsFile);
   };
   const auto read = [&](const std::string& sensor, const sim::Pose& T_BS) {
     file = mav / sensor / "sensor.yaml";
@@ -115,10 +108,9 @@ void move_as_run(const fs::path& mav, const std::string& camera,
     const fs::path file = mav / "odometry0" / "data.csv";
     readings.odometry = read_odometry_csv(file, times, recorded.tally);
     if (readings.odometry.empty()) {
-      throw input::Error(
-          {file.string(), 0},
-          "holds no reading of the odometry that {} says there is; generate the sequence again",
-          sequence::kSettingsFile);
+      refuse({file},
+             "holds no reading of the odometry that {} says there is; generate the sequence again",
+             sequence::kSettingsFile);
     }
   }
   const fs::path poses = mav / camera / "pose.csv";
@@ -138,7 +130,7 @@ void move_as_run(const fs::path& mav, const std::string& camera,
 
 /// The camera of a generated rig by its folder or its name in the scenario; if none is asked for,
 /// the run's camera. Puts its lens and pose into the settings. \return its folder.
-std::string choose_camera(const scenario::RecordingSource& asked, sequence::ReplaySettings& exact) {
+std::string choose_camera(const RecordingSource& asked, sequence::ReplaySettings& exact) {
   std::string names;
   for (std::size_t place = 0; place < exact.cameras.size(); ++place) {
     const sequence::ReplaySettings::Camera& one = exact.cameras[place];
@@ -151,12 +143,10 @@ std::string choose_camera(const scenario::RecordingSource& asked, sequence::Repl
     exact.calibration.T_BC = one.T_BC;
     return folder;
   }
-  throw input::Error(asked.source, "no camera of the rig is called '{}'; give one of {}",
-                     asked.camera, names);
+  refuse(asked.source, "no camera of the rig is called '{}'; give one of {}", asked.camera, names);
 }
 
-std::vector<TrueState> read_truth(const fs::path& mav, const scenario::RecordingSource& asked,
-                                  Tally& tally) {
+std::vector<TrueState> read_truth(const fs::path& mav, const RecordingSource& asked, Tally& tally) {
   for (const char* name : {kTruthFolder, kMotionCapture}) {
     const fs::path file = mav / name / "data.csv";
     if (!fs::exists(file)) continue;
@@ -178,15 +168,15 @@ void require_gravity_down(const TrueState& start, const std::vector<sim::ImuSamp
     if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
   }
   if ((start.state.q_WB * force_S).z() >= 0) return;
-  throw input::Error({file.string(), 0},
-                     "by the attitude of the truth its accelerations point down, and at rest they "
-                     "must point up; change their sign");
+  refuse({file},
+         "by the attitude of the truth its accelerations point down, and at rest they must point "
+         "up; change their sign");
 }
 
 /// Sets the motion from EuRoC's own files. The body frame is B.
 /// \param T_BC_known pose of the camera, if anything states it.
 void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_known,
-                   bool exact_motion, const scenario::RecordingSource& asked, Recorded& recorded) {
+                   bool exact_motion, const RecordingSource& asked, Recorded& recorded) {
   if (!T_BC_known) {
     recorded.lacks.emplace_back(
         "where the camera is on the IMU (T_BS or T_cam_imu in a calibration, or mount)");
@@ -199,8 +189,8 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   if (exact_motion) {
     recorded.took.insert("ego_motion: truth");
     if (truth.size() < 2) {
-      throw std::runtime_error(fmt::format(
-          "{} has no truth to tell the motion from; leave --ego-motion truth out", mav.string()));
+      refuse({}, "{} has no truth to tell the motion from; leave --ego-motion truth out",
+             mav.string());
     }
     std::vector<NavigationState> states;
     for (const TrueState& state : truth) states.push_back(state.state);
@@ -263,7 +253,7 @@ bool is_euroc(const fs::path& folder) {
   return fs::exists(camera / "data.csv") || fs::is_directory(camera / "data");
 }
 
-Recorded read_euroc(const scenario::RecordingSource& asked, bool exact_motion) {
+Recorded read_euroc(const RecordingSource& asked, bool exact_motion) {
   const fs::path mav = mav_of(asked.path);
   const fs::path settings_file = asked.path / sequence::kSettingsFile;
   std::optional<sequence::ReplaySettings> exact;
@@ -272,8 +262,7 @@ Recorded read_euroc(const scenario::RecordingSource& asked, bool exact_motion) {
   if (exact && !exact->cameras.empty()) camera = choose_camera(asked, *exact);
   const fs::path camera_folder = mav / camera;
   if (!fs::is_directory(camera_folder)) {
-    throw input::Error(asked.source, "{} is not there; name another camera",
-                       camera_folder.string());
+    refuse(asked.source, "{} is not there; name another camera", camera_folder.string());
   }
   const SensorCalibration sensor = calibration_in(camera_folder);
   Recorded recorded;

@@ -3,21 +3,15 @@
 // camera 0, beside the pictures or, as in the benchmark, in poses/NN.txt for sequences/NN/.
 // KITTI tracking: image_02/NNNN/, oxts/NNNN.txt and calib/NNNN.txt in training/ or testing/.
 // KITTI-360: data_2d_raw/DRIVE/image_0X/data_rect/, beside calibration/ and data_poses/DRIVE/.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
-#include <optional>
 #include <span>
 #include <sstream>
-#include <stdexcept>
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/replay/motion_source.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {
@@ -83,12 +77,11 @@ class KittiCalibration {
   const double* numbers(const std::string& name, std::size_t count) const {
     const auto found = values_.find(name);
     if (found != values_.end() && found->second.size() == count) return found->second.data();
-    throw input::Error({file_.string(), 0}, "{} is missing, or is not {} numbers; {}", name, count,
-                       kCalibration.remedy);
+    refuse({file_}, "{} is missing, or is not {} numbers; {}", name, count, kCalibration.remedy);
   }
   Eigen::Matrix3d rotation_in(const std::string& name, const Eigen::Matrix3d& rounded) const {
     if (const auto R = rotation_of(rounded)) return *R;
-    throw input::Error({file_.string(), 0}, "{} is no rotation; {}", name, kCalibration.remedy);
+    refuse({file_}, "{} is no rotation; {}", name, kCalibration.remedy);
   }
 
   fs::path file_;
@@ -97,15 +90,14 @@ class KittiCalibration {
 
 /// The folder of the asked camera, or else of the first of the names that is there.
 /// \throws input::Error if it is not there.
-fs::path camera_folder(const scenario::RecordingSource& asked, std::span<const char* const> names) {
+fs::path camera_folder(const RecordingSource& asked, std::span<const char* const> names) {
   const auto first = std::ranges::find_if(
       names, [&](const char* name) { return fs::is_directory(asked.path / name); });
   const fs::path folder = asked.path / (!asked.camera.empty()  ? asked.camera
                                         : first != names.end() ? *first
                                                                : names.front());
   if (folder.filename().string().starts_with(kPrefix) && fs::is_directory(folder)) return folder;
-  throw input::Error(asked.source, "{} is not there; name a camera, as {}", folder.string(),
-                     names.front());
+  refuse(asked.source, "{} is not there; name a camera, as {}", folder.string(), names.front());
 }
 
 constexpr const char* kDriveCameras[] = {"image_02", "image_00", "image_03", "image_01"};
@@ -231,20 +223,6 @@ fs::path poses_of(const fs::path& folder) {
   return "";
 }
 
-/// The poses are of camera 0; y of their world frame points down.
-void read_motion(const scenario::RecordingSource& asked, const fs::path& file,
-                 const sim::Pose& T_C0C, Recorded& recorded) {
-  const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
-  std::vector<PosesMotion::CameraPose> at_frames;
-  const auto rows = take_rows(file, poses.lines.size(), "pose", recorded);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto& line = poses.lines[rows[i]];
-    if (line) at_frames.push_back({recorded.frames[i].t_ns, line->T_WC * T_C0C});
-  }
-  move_along(std::move(at_frames), Vector3d(0, -1, 0), asked, file,
-             "pictures have no pose and are left out", recorded);
-}
-
 /// A sequence of KITTI tracking: ROOT/image_02/NNNN.
 struct Tracked {
   fs::path root, pictures;
@@ -266,8 +244,8 @@ std::optional<Tracked> tracked_in(const fs::path& folder) {
     const Tracked one{whole, entry->path(), "image_02", entry->path().filename().string()};
     if (!entry->is_directory() || !fs::exists(one.file("calib"))) continue;
     if (only) {
-      throw std::runtime_error(fmt::format("{} holds several sequences; give one of them, as {}",
-                                           folder.string(), one.pictures.string()));
+      refuse({}, "{} holds several sequences; give one of them, as {}", folder.string(),
+             one.pictures.string());
     }
     only = one;
   }
@@ -285,7 +263,7 @@ bool is_kitti(const fs::path& folder) {
   return fs::is_directory(folder / "oxts" / "data") && has_any(folder, kDriveCameras);
 }
 
-Recorded read_kitti(const scenario::RecordingSource& asked, bool) {
+Recorded read_kitti(const RecordingSource& asked, bool) {
   const fs::path camera = camera_folder(asked, kDriveCameras);
   const std::string name = camera.filename().string();
   Recorded recorded;
@@ -307,7 +285,7 @@ bool is_kitti_odometry(const fs::path& folder) {
   return fs::exists(folder / "calib.txt") && has_any(folder, kOdometryCameras);
 }
 
-Recorded read_kitti_odometry(const scenario::RecordingSource& asked, bool) {
+Recorded read_kitti_odometry(const RecordingSource& asked, bool) {
   const fs::path camera = camera_folder(asked, kOdometryCameras);
   Recorded recorded;
   take_pictures(camera, "", recorded);
@@ -322,7 +300,8 @@ Recorded read_kitti_odometry(const scenario::RecordingSource& asked, bool) {
   if (motion_is_asked(asked) || poses.empty()) return recorded;
   // Without times and a rate it will be rejected later, for that reason.
   if (!recorded.timed) time_by(asked.fps.value_or(1), recorded);
-  read_motion(asked, poses, calibration.beside(projection).inverse(), recorded);
+  // The poses are of camera 0.
+  move_by_poses(asked, poses, true, recorded, {}, calibration.beside(projection).inverse());
   return recorded;
 }
 
@@ -330,13 +309,12 @@ bool is_kitti_tracking(const fs::path& folder) {
   return fs::is_directory(folder) && tracked_in(folder).has_value();
 }
 
-Recorded read_kitti_tracking(const scenario::RecordingSource& asked, bool) {
+Recorded read_kitti_tracking(const RecordingSource& asked, bool) {
   const std::optional<Tracked> sequence = tracked_in(asked.path);
   if (!sequence) {
-    throw input::Error(
-        asked.source,
-        "{} is no sequence of KITTI tracking; give training/image_02/NNNN beside training/calib",
-        asked.path.string());
+    refuse(asked.source,
+           "{} is no sequence of KITTI tracking; give training/image_02/NNNN beside training/calib",
+           asked.path.string());
   }
   constexpr double kRate_hz = 10;  // all of KITTI is triggered at this rate
   Recorded recorded;
@@ -381,12 +359,11 @@ bool is_kitti_360(const fs::path& folder) {
   return fs::is_directory(rectified_in(folder, ""));
 }
 
-Recorded read_kitti_360(const scenario::RecordingSource& asked, bool) {
+Recorded read_kitti_360(const RecordingSource& asked, bool) {
   const std::string camera = asked.camera.empty() ? "image_00" : asked.camera;
   const fs::path pictures = rectified_in(asked.path, camera);
   if (!fs::is_directory(pictures)) {
-    throw input::Error(asked.source, "{} is not there; name a camera, as image_00",
-                       pictures.string());
+    refuse(asked.source, "{} is not there; name a camera, as image_00", pictures.string());
   }
   Recorded recorded;
   take_frames(pictures.parent_path() / "timestamps.txt", pictures, recorded);
@@ -405,9 +382,7 @@ Recorded read_kitti_360(const scenario::RecordingSource& asked, bool) {
         fmt::format("how {} moved (poses; {} is of image_00)", camera, poses.string()));
     return recorded;
   }
-  scenario::RecordingSource by_poses = asked;
-  by_poses.poses = poses;
-  move_by_poses(by_poses, true, recorded);
+  move_by_poses(asked, poses, true, recorded);
   return recorded;
 }
 

@@ -349,8 +349,8 @@ void MotionCheck::require_right(const MotionSource& motion, const input::Source&
         "the pictures, with an IMU its speed at the start, and their focal length; {}",
         kNeutralWay));
   }
-  throw input::Error(where, "the pictures contradict its motion in {} of {} frames; {}", wrong,
-                     frames, fmt::join(remedies, "; or "));
+  refuse(where, "the pictures contradict its motion in {} of {} frames; {}", wrong, frames,
+         fmt::join(remedies, "; or "));
 }
 
 std::string MotionCheck::remedy_of(const Fit& fit) {

@@ -40,8 +40,8 @@ class MotionCheck {
   bool is_due() const { return is_due_; }
 
   /// \param motion that was told. \param where it is from.
-  /// \throws input::Error if more than half of the frames contradict it. It names the axes, order or
-  ///   sign by which the same data fit, if there are such.
+  /// \throws input::Error if more than half of the frames contradict it. It names the axes, order
+  ///   or sign by which the same data fit, if there are such.
   void require_right(const MotionSource& motion, const input::Source& where) const;
 
   /// A line for each doubt: frames that contradict, pictures that repeat, lines that alternate.

@@ -1,9 +1,8 @@
 #include "tools/replay/motion_source.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <stdexcept>
+
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {
@@ -81,10 +80,10 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
   if (has_pose) {
     observation.truth.now.T_WC = readings_.poses[pose_].T_WC;
   } else if (needs_poses_) {
-    throw std::runtime_error(
-        fmt::format("there is no pose of the camera at {} ns; give cam0/pose.csv a row for each "
-                    "picture, or leave --ego-motion truth out",
-                    t_ns));
+    refuse({},
+           "there is no pose of the camera at {} ns; give cam0/pose.csv a row for each picture, or "
+           "leave --ego-motion truth out",
+           t_ns);
   }
   const bench::EgoMotionFeed::Motions motions = feed_.next(observation);
   exact_ = has_pose && had_pose_ ? std::optional(motions.exact) : std::nullopt;

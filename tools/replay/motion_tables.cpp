@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -14,8 +13,6 @@
 
 #include "filter/ego_motion/imu_watch.h"
 #include "tools/files/csv.h"
-#include "tools/replay/motion_source.h"
-#include "tools/replay/text_table.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {
@@ -86,11 +83,11 @@ std::optional<Places> named_places(const TextTable& table) {
   if (std::ranges::all_of(found, [](int count) { return count == 1; })) return places;
   const bool is_text = table.is_comment && std::ranges::count(found, 0) > 5;
   if (table.header.empty() || is_text) return std::nullopt;
-  throw input::Error({table.file.string(), 1},
-                     "the header does not name one position in m and one quaternion: {}; give the "
-                     "columns time, x, y, z, qx, qy, qz, qw of the camera, or p_RS_R_x, p_RS_R_y, "
-                     "p_RS_R_z, q_RS_w, q_RS_x, q_RS_y, q_RS_z of a body",
-                     table.columns());
+  refuse({table.file, 1},
+         "the header does not name one position in m and one quaternion: {}; give the columns "
+         "time, x, y, z, qx, qy, qz, qw of the camera, or p_RS_R_x, p_RS_R_y, p_RS_R_z, q_RS_w, "
+         "q_RS_x, q_RS_y, q_RS_z of a body",
+         table.columns());
 }
 
 /// Refuses positions that contradict the velocities of the same table, as EuRoC's truth has them.
@@ -116,10 +113,10 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
       (by_places_m < kFactor * by_velocities_m && by_velocities_m < kFactor * by_places_m)) {
     return;
   }
-  throw input::Error({table.file.string(), 0},
-                     "its positions move by {:.3g} m in all, and its velocities by {:.3g} m; "
-                     "correct one of the two, or give other poses",
-                     by_places_m, by_velocities_m);
+  refuse({table.file},
+         "its positions move by {:.3g} m in all, and its velocities by {:.3g} m; correct one of "
+         "the two, or give other poses",
+         by_places_m, by_velocities_m);
 }
 
 constexpr double kStandardGravity_mps2 = 9.80665;
@@ -187,8 +184,8 @@ double factor_of(const TextTable& table, std::size_t column, bool is_rate) {
   if (is_rate && has("rad")) return 1;
   if (!is_rate && (has("m/s") || has("m s") || has("m*s"))) return 1;
   if (!is_rate && (unit == "g" || unit == "G")) return kStandardGravity_mps2;
-  throw input::Error({table.file.string(), 1}, "the unit '{}' of {} is not known; give {}", unit,
-                     table.header[column].name, is_rate ? "rad/s or deg/s" : "m/s^2 or g");
+  refuse({table.file, 1}, "the unit '{}' of {} is not known; give {}", unit,
+         table.header[column].name, is_rate ? "rad/s or deg/s" : "m/s^2 or g");
 }
 
 struct ImuColumns {
@@ -201,33 +198,33 @@ struct ImuColumns {
 ImuColumns find_columns(const TextTable& table, const TableTimes& times,
                         const std::array<std::size_t, 6>& places, Tally& tally) {
   std::array<bool, 6> is_found{};
-  const auto refuse = [&](const std::string& why) {
-    throw input::Error({table.file.string(), 1},
-                       "{}: {}; give the time, and w_RS_S_x, w_RS_S_y, w_RS_S_z [rad/s], a_RS_S_x, "
-                       "a_RS_S_y, a_RS_S_z [m/s^2]{}",
-                       why, table.columns(),
-                       table.header.empty() ? " in a header (KAIST's xsens_imu.csv: time "
-                                              "[ns],qx,qy,qz,qw,ex,ey,ez, these six, mx,my,mz)"
-                                            : "");
+  const auto refuse_header = [&](const std::string& why) {
+    refuse({table.file, 1},
+           "{}: {}; give the time, and w_RS_S_x, w_RS_S_y, w_RS_S_z [rad/s], a_RS_S_x, a_RS_S_y, "
+           "a_RS_S_z [m/s^2]{}",
+           why, table.columns(),
+           table.header.empty() ? " in a header (KAIST's xsens_imu.csv: time "
+                                  "[ns],qx,qy,qz,qw,ex,ey,ez, these six, mx,my,mz)"
+                                : "");
   };
   const std::size_t fields = table.rows.empty() ? 0 : table.rows.front().fields.size();
   if (table.header.empty() && fields > 7 && !table.rows.front().fields[7].empty())
-    refuse("its columns are not those of an IMU alone");
+    refuse_header("its columns are not those of an IMU alone");
   ImuColumns columns{time_column_of(table, times, tally), places};
   if (table.header.empty()) return columns;
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const auto place = imu_quantities().place_of(table.header[i].name);
     if (!place || *place >= is_found.size()) continue;
     if (is_found[*place]) {
-      refuse(fmt::format("the columns {} and {} both may be one of the IMU's",
-                         table.header[columns.places[*place]].name, table.header[i].name));
+      refuse_header(fmt::format("the columns {} and {} both may be one of the IMU's",
+                                table.header[columns.places[*place]].name, table.header[i].name));
     }
     is_found[*place] = true;
     columns.places[*place] = i;
     columns.factors[*place] = factor_of(table, i, *place < 3);
   }
   if (!std::ranges::all_of(is_found, [](bool found) { return found; })) {
-    refuse("the header does not name three angular rates and three accelerations");
+    refuse_header("the header does not name three angular rates and three accelerations");
   }
   return columns;
 }
@@ -292,33 +289,32 @@ void require_possible(const std::vector<sim::ImuSample>& samples, const fs::path
   const double often_radps = *fast, usual_radps = *usual(rates);
   const double usual_mps2 = *usual(std::move(forces));
   if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual_mps2 < kLeast_mps2) {
-    throw input::Error(where,
-                       "its angular rates have a size of {:.2f} and its accelerations of {:.2f}: "
-                       "the two seem interchanged; name the columns in a header",
-                       usual_radps, usual_mps2);
+    refuse(where,
+           "its angular rates have a size of {:.2f} and its accelerations of {:.2f}: the two seem "
+           "interchanged; name the columns in a header",
+           usual_radps, usual_mps2);
   }
   if (usual_mps2 >= ImuWatch::kLeast_g && usual_mps2 <= ImuWatch::kMost_g) {
-    throw input::Error(
+    refuse(
         where,
         "accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 to have m/s^2 "
         "(and see whether rates are in rad/s), or put their unit into the header, as a_RS_S_x [g]",
         usual_mps2);
   }
   if (usual_mps2 < kLeast_mps2 || usual_mps2 > kMost_mps2) {
-    throw input::Error(where,
-                       "accelerations have a size of {:.3g}, and an IMU at rest measures gravity, "
-                       "9.81 m/s^2; give the accelerometer's readings, gravity included, in m/s^2",
-                       usual_mps2);
+    refuse(where,
+           "accelerations have a size of {:.3g}, and an IMU at rest measures gravity, 9.81 m/s^2; "
+           "give the accelerometer's readings, gravity included, in m/s^2",
+           usual_mps2);
   }
   const double tilt_rad = tilt_error_rad(samples, 1);
   const bool is_tilted =
       tilt_rad > kTilted_rad && tilt_error_rad(samples, kDegree) < kBetter * tilt_rad;
   if (often_radps > kFastTurn_radps || is_tilted) {
-    throw input::Error(
-        where,
-        "its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no camera does "
-        "for long{}; if they are in deg/s, put that into the header, as w_RS_S_x [deg/s]",
-        often_radps, is_tilted ? ", and contradict the accelerometer" : "");
+    refuse(where,
+           "its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no camera "
+           "does for long{}; if they are in deg/s, put that into the header, as w_RS_S_x [deg/s]",
+           often_radps, is_tilted ? ", and contradict the accelerometer" : "");
   }
 }
 
@@ -366,7 +362,7 @@ std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
 PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& tally) {
   const TextTable table = read_table(file);
   const std::string path = file.string();
-  if (table.rows.empty()) throw input::Error({path, 0}, "holds no pose; give a line for each");
+  if (table.rows.empty()) refuse({path}, "holds no pose; give a line for each");
   const TextTable::Row& first = table.rows.front();
   const input::Source where{path, first.line};
   const std::size_t fields = first.fields.size();
@@ -376,24 +372,23 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   poses.timed = named || fields == kTumFields;
   poses.numbered = !poses.timed && fields == kMatrix + 1;
   if (!named && table.separator == ',' && first.fields.back().empty()) {
-    throw input::Error(
-        where,
-        "lines that end with a comma are of VINS-Mono or VINS-Fusion, with poses of the IMU; write "
-        "time [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,{} as its first line, "
-        "and give the camera's place on the IMU by a calibration",
-        fields > kTumFields + 1 ? "vx,vy,vz," : "");
+    refuse(where,
+           "lines that end with a comma are of VINS-Mono or VINS-Fusion, with poses of the IMU; "
+           "write time [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,{} as its first "
+           "line, and give the camera's place on the IMU by a calibration",
+           fields > kTumFields + 1 ? "vx,vy,vz," : "");
   }
   if (!poses.timed && fields != kThreeRows && fields != kMatrix && fields != kMatrix + 1) {
-    throw input::Error(where,
-                       "a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of "
-                       "a matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, "
-                       "or a header with time, x, y, z, qx, qy, qz, qw",
-                       fields);
+    refuse(where,
+           "a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of a matrix) or "
+           "17 (KITTI-360), and this has {}; give a file of one of these, or a header with time, "
+           "x, y, z, qx, qy, qz, qw",
+           fields);
   }
   if (!named && fields == kTumFields && table.separator == ',') {
-    throw input::Error(where,
-                       "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, "
-                       "w last; give it a header, as time, x, y, z, qx, qy, qz, qw");
+    refuse(where,
+           "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, w last; give "
+           "it a header, as time, x, y, z, qx, qy, qz, qw");
   }
   constexpr double kSlowest_hz = 0.6, kFastest_hz = 590;
   TimeColumn time;
@@ -414,10 +409,10 @@ PosesFile read_poses(const fs::path& file, const std::string& time_unit, Tally& 
   }
   require_velocities(table, poses);
   if (std::ranges::none_of(poses.lines, [](const auto& line) { return line.has_value(); })) {
-    throw input::Error({path, 0},
-                       "holds no pose: {}, and its first row begins with '{}'; give a line of 8 "
-                       "numbers (TUM: with its time first) or 12 (KITTI) for each",
-                       table.columns(), first.fields.front());
+    refuse({path},
+           "holds no pose: {}, and its first row begins with '{}'; give a line of 8 numbers (TUM: "
+           "with its time first) or 12 (KITTI) for each",
+           table.columns(), first.fields.front());
   }
   return poses;
 }
@@ -433,8 +428,7 @@ std::vector<sim::ImuSample> read_imu_csv(const fs::path& file, const TableTimes&
     samples.push_back({row.t_ns, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
   }
   if (samples.empty()) {
-    throw input::Error({file.string(), 0},
-                       tally.before("holds no reading of an IMU; give a row for each"));
+    refuse({file}, "{}", tally.before("holds no reading of an IMU; give a row for each"));
   }
   drop_impossible(samples, file, tally);
   require_possible(samples, file);

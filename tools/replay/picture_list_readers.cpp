@@ -5,23 +5,15 @@
 // imu.txt (t ax ay az gx gy gz).
 // Oxford RobotCar: mono_*/ and stereo/*/ with raw pictures, <camera>.timestamps, gps/ins.csv. A
 // recording has no calibration.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <opencv2/imgproc.hpp>
-#include <optional>
-#include <set>
-#include <stdexcept>
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/replay/calibration.h"
-#include "tools/replay/motion_source.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {
@@ -31,36 +23,25 @@ constexpr const char* kPictureList = "images.txt";
 constexpr const char* kTumPictureList = "rgb.txt";
 constexpr const char* kTruth = "groundtruth.txt";
 
-/// The first four fields between blanks.
-std::array<std::string_view, 4> fields_in(std::string_view line) {
-  std::array<std::string_view, 4> fields;
-  for (std::string_view& field : fields) {
-    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-    field = line.substr(0, line.find(' '));
-    line.remove_prefix(field.size());
-  }
-  return fields;
-}
-
 std::vector<sim::Event> read_events(const fs::path& path, Tally& tally) {
   constexpr input::FileKind kKind{16 * input::kGibibyte, "give lines of t x y p"};
   input::InputFile file(path, kKind);
   std::vector<sim::Event> events;
   for (std::string line; file.next_line(line);) {
-    const auto [time, column, row, polarity] = fields_in(files::trimmed(line));
-    const auto t_ns = time_in(time, kSecond_ns);
-    const auto x = files::number_in<std::uint16_t>(column);
-    const auto y = files::number_in<std::uint16_t>(row);
-    if (!t_ns || !x || !y || (polarity != "0" && polarity != "1")) {
+    std::vector<std::string_view> fields = files::words_of(line);
+    fields.resize(4);
+    const auto t_ns = time_in(fields[0], kSecond_ns);
+    const auto x = files::number_in<std::uint16_t>(fields[1]);
+    const auto y = files::number_in<std::uint16_t>(fields[2]);
+    if (!t_ns || !x || !y || (fields[3] != "0" && fields[3] != "1")) {
       tally.add("events cannot be read and are left out",
                 fmt::format("{}:{}", path.string(), file.here().line));
       continue;
     }
     if (!events.empty() && *t_ns < events.back().t_ns) {
-      throw input::Error(file.here(),
-                         "is earlier than the event before it; sort the lines by time");
+      refuse(file.here(), "is earlier than the event before it; sort the lines by time");
     }
-    events.push_back({*t_ns, *x, *y, polarity == "1"});
+    events.push_back({*t_ns, *x, *y, fields[3] == "1"});
   }
   return events;
 }
@@ -69,8 +50,7 @@ Lens read_lens(const fs::path& file) {
   const TextTable table = read_table(file);
   const auto numbers =
       table.rows.size() == 1 ? TextTable::numbers(table.rows[0], 0, 9) : std::nullopt;
-  if (!numbers)
-    throw input::Error({file.string(), 0}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
+  if (!numbers) refuse({file}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
   const std::vector<double>& n = *numbers;
   Lens lens = pinhole({n[0], n[1], n[2], n[3]}, {file.string(), 0});
   const std::vector<double> k(n.begin() + 4, n.end());
@@ -105,20 +85,20 @@ const CameraKind* first_camera(const fs::path& folder) {
   return found == std::end(kCameras) ? nullptr : found;
 }
 
-const CameraKind& camera_of(const scenario::RecordingSource& asked) {
+const CameraKind& camera_of(const RecordingSource& asked) {
   if (asked.camera.empty()) {
     if (const CameraKind* first = first_camera(asked.path)) return *first;
-    throw std::runtime_error(
-        fmt::format("{} has no camera with its list of pictures; give one, as stereo/centre with "
-                    "stereo.timestamps",
-                    asked.path.string()));
+    refuse({},
+           "{} has no camera with its list of pictures; give one, as stereo/centre with "
+           "stereo.timestamps",
+           asked.path.string());
   }
   const auto found = std::ranges::find(kCameras, asked.camera, &CameraKind::name);
   if (found == std::end(kCameras)) {
-    throw input::Error(asked.source,
-                       "the camera is '{}'; give stereo/left, stereo/centre, stereo/right, "
-                       "mono_left, mono_right or mono_rear",
-                       asked.camera);
+    refuse(asked.source,
+           "the camera is '{}'; give stereo/left, stereo/centre, stereo/right, mono_left, "
+           "mono_right or mono_rear",
+           asked.camera);
   }
   return *found;
 }
@@ -128,9 +108,8 @@ const CameraKind& camera_of(const scenario::RecordingSource& asked) {
 std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   const TextTable table = read_table(file);
   if (table.header.empty()) {
-    throw std::runtime_error(
-        fmt::format("{} has no header to find its columns by; give the file as RobotCar has it",
-                    file.string()));
+    refuse({}, "{} has no header to find its columns by; give the file as RobotCar has it",
+           file.string());
   }
   const auto column = [&](const char* name) { return table.column(name, 0); };
   const std::size_t columns[] = {column("velocity_north"), column("velocity_east"),
@@ -194,9 +173,9 @@ RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
     if (!other || (is_here(row) && !is_here(*other))) {
       other = &row;
     } else if (!is_here(*other) && TextTable::field(*other, column) != name.string()) {
-      throw input::Error({table.file.string(), row.line},
-                         "{} and {} may both be the picture {}; give the rows of its folder alone",
-                         TextTable::field(*other, column), name.string(), frame.name());
+      refuse({table.file, row.line},
+             "{} and {} may both be the picture {}; give the rows of its folder alone",
+             TextTable::field(*other, column), name.string(), frame.name());
     }
   }
   // A count from 0 is not that of the names 1.png, 2.png, ...
@@ -246,10 +225,10 @@ std::size_t time_column(const TextTable& table, std::optional<std::size_t> names
     if (i != names && is_number && !is_count(table, i) && increases(rows, i)) return i;
   }
   if (names && !has_header && increases(rows, *names)) return *names;  // names that are times
-  throw input::Error({table.file.string(), table.rows.front().line},
-                     "no column holds times that increase: {}; give a time for each picture, in a "
-                     "column called time [s], [ms], [us] or [ns]",
-                     table.columns());
+  refuse({table.file, table.rows.front().line},
+         "no column holds times that increase: {}; give a time for each picture, in a column "
+         "called time [s], [ms], [us] or [ns]",
+         table.columns());
 }
 
 }  // namespace
@@ -258,14 +237,14 @@ bool is_tum_rgbd(const fs::path& folder) {
   return fs::exists(folder / kTumPictureList);
 }
 
-Recorded read_tum_rgbd(const scenario::RecordingSource& asked, bool) {
+Recorded read_tum_rgbd(const RecordingSource& asked, bool) {
   Recorded recorded;
   const auto picture = [&](const TextTable::Row& row) {
     return row.fields.size() > 1 ? asked.path / row.fields[1] : fs::path();
   };
   take_list(read_table(asked.path / kTumPictureList), kSecond_ns, picture, recorded);
   if (!motion_is_asked(asked) && fs::exists(asked.path / kTruth)) {
-    move_by_timed_poses(asked, asked.path / kTruth, Vector3d::UnitZ(), recorded);
+    move_by_poses(asked, asked.path / kTruth, true, recorded, Vector3d::UnitZ());
   }
   return recorded;
 }
@@ -276,7 +255,7 @@ bool is_rpg_events(const fs::path& folder) {
 
 /// The layout does not state where the camera is on the IMU. The motion comes from the IMU if
 /// `asked.calibration` states it, else from the truth.
-Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_motion) {
+Recorded read_rpg_events(const RecordingSource& asked, bool exact_motion) {
   Recorded recorded;
   const auto picture = [&](const TextTable::Row& row) {
     return row.fields.size() == 2 ? asked.path / row.fields[1] : fs::path();
@@ -300,7 +279,7 @@ Recorded read_rpg_events(const scenario::RecordingSource& asked, bool exact_moti
     move_by_readings(asked, imu, std::move(readings), recorded);
   } else if (fs::exists(truth)) {
     recorded.took.insert("ego_motion: truth");
-    move_by_timed_poses(asked, truth, Vector3d::UnitZ(), recorded);
+    move_by_poses(asked, truth, true, recorded, Vector3d::UnitZ());
   }
   return recorded;
 }
@@ -309,7 +288,7 @@ bool is_robotcar(const fs::path& folder) {
   return first_camera(folder) != nullptr;
 }
 
-Recorded read_robotcar(const scenario::RecordingSource& asked, bool) {
+Recorded read_robotcar(const RecordingSource& asked, bool) {
   const CameraKind& camera = camera_of(asked);
   Recorded recorded;
   recorded.format.demosaic = camera.demosaic;
@@ -331,7 +310,7 @@ Recorded read_robotcar(const scenario::RecordingSource& asked, bool) {
 void time_by_table(const fs::path& file, const std::string& time_unit, Recorded& recorded) {
   const TextTable table = read_table(file);
   if (table.rows.empty()) {
-    throw input::Error({file.string(), 0}, "holds no time; give one for each picture");
+    refuse({file}, "holds no time; give one for each picture");
   }
   RowOfFrame rows;
   std::optional<std::size_t> names;
@@ -348,10 +327,10 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
     }
   }
   if (rows.size() < pictures) {
-    throw input::Error({file.string(), 0},
-                       "has {} times for {} pictures, and does not name them; give one for each "
-                       "picture, or a column with the names of the pictures",
-                       table.rows.size(), pictures);
+    refuse({file},
+           "has {} times for {} pictures, and does not name them; give one for each picture, or a "
+           "column with the names of the pictures",
+           table.rows.size(), pictures);
   }
   const TableTimes times{time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}};
   TimeColumn time;
@@ -367,8 +346,7 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
     const TextTable::Row* row = rows[i];
     const auto t_ns = row ? time.of(*row) : std::nullopt;
     if (row && !t_ns && !names) {
-      throw input::Error({file.string(), row->line},
-                         "holds no time, and the rows do not name their pictures; give one");
+      refuse({file, row->line}, "holds no time, and the rows do not name their pictures; give one");
     }
     if (t_ns) {
       frame.t_ns = *t_ns;

@@ -1,16 +1,11 @@
 // Pictures of files and videos, and layouts that the user describes: a folder, a video, a sequence
 // of MOTChallenge.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
-#include <stdexcept>
-#include <utility>
 
 #include "scenarios/input/input_file.h"
 #include "sim/pictures/media.h"
@@ -131,7 +126,7 @@ bool is_pictures(const fs::path& folder) {
   }
 }
 
-Recorded read_pictures(const scenario::RecordingSource& asked, bool) {
+Recorded read_pictures(const RecordingSource& asked, bool) {
   Recorded recorded;
   if (asked.times) {  // perhaps it names the pictures, whose order is then of no matter
     take_unordered(asked.path, recorded);
@@ -146,13 +141,13 @@ bool is_listed(const fs::path& folder) {
   return !list_in(folder).empty() && !pictures_of_list(folder).empty();
 }
 
-Recorded read_listed(const scenario::RecordingSource& asked, bool) {
+Recorded read_listed(const RecordingSource& asked, bool) {
   const fs::path list = list_in(asked.path), pictures = pictures_of_list(asked.path);
   if (list.empty() || pictures.empty()) {
-    throw input::Error(asked.source,
-                       "{} has no list of times or no pictures; give times.txt or images.txt "
-                       "beside a folder of pictures",
-                       asked.path.string());
+    refuse(asked.source,
+           "{} has no list of times or no pictures; give times.txt or images.txt beside a folder "
+           "of pictures",
+           asked.path.string());
   }
   Recorded recorded;
   take_unordered(pictures, recorded);
@@ -165,7 +160,7 @@ bool is_mot(const fs::path& folder) {
   return fs::exists(folder / kSequenceInfo);
 }
 
-Recorded read_mot(const scenario::RecordingSource& asked, bool) {
+Recorded read_mot(const RecordingSource& asked, bool) {
   const std::map<std::string, std::string> info = read_info(asked.path / kSequenceInfo);
   const auto text = [&](const char* key, const char* otherwise) {
     const auto found = info.find(key);
@@ -189,29 +184,29 @@ bool is_video(const fs::path& file) {
   return fs::is_regular_file(file);
 }
 
-Recorded read_video(const scenario::RecordingSource& asked, bool) {
+Recorded read_video(const RecordingSource& asked, bool) {
   const input::InputFile no_pipe(asked.path, kVideo, asked.source);
   const auto video = output::open_video(asked.path);
-  const auto refuse = [&](const std::string& what) {
-    throw input::Error(asked.source, "{} {}; {}", asked.path.string(), what, kVideo.remedy);
+  const auto refuse_it = [&](const std::string& what) {
+    refuse(asked.source, "{} {}; {}", asked.path.string(), what, kVideo.remedy);
   };
-  if (!video->isOpened()) refuse("is no video that can be read");
+  if (!video->isOpened()) refuse_it("is no video that can be read");
   const double width = video->get(cv::CAP_PROP_FRAME_WIDTH);
   const double height = video->get(cv::CAP_PROP_FRAME_HEIGHT);
   if (width * height > static_cast<double>(sim::kMostPixels)) {
-    refuse(fmt::format("has pictures of {:.0f} x {:.0f} pixels, and can have {} million in all",
-                       width, height, sim::kMostPixels / 1'000'000));
+    refuse_it(fmt::format("has pictures of {:.0f} x {:.0f} pixels, and can have {} million in all",
+                          width, height, sim::kMostPixels / 1'000'000));
   }
   Recorded recorded;
   recorded.video = asked.path;
   recorded.timed = false;
   const sim::VideoTimes times = sim::media().video_times(fs::absolute(asked.path).string());
-  if (times.t_ns.empty()) refuse("has no picture that can be read");
+  if (times.t_ns.empty()) refuse_it("has no picture that can be read");
   for (std::size_t i = 0; i < times.t_ns.size(); ++i) recorded.frames.push_back({0, {}, i});
   recorded.numbers.pictures = recorded.frames.size();
   if (times.counted > std::ssize(times.t_ns)) {
-    recorded.tally.tell(fmt::format("the video ends after {} of the {} pictures of its header",
-                                    times.t_ns.size(), times.counted));
+    recorded.tally.tell("the video ends after {} of the {} pictures of its header",
+                        times.t_ns.size(), times.counted);
   }
   const double span_s = 1e-9 * static_cast<double>(times.t_ns.back() - times.t_ns.front());
   const double own_hz = static_cast<double>(times.t_ns.size() - 1) / span_s;
@@ -222,17 +217,17 @@ Recorded read_video(const scenario::RecordingSource& asked, bool) {
   if (asked.times || !times.are_stated) return recorded;
   if (asked.fps) {
     if (differs(*asked.fps)) {
-      recorded.tally.tell(fmt::format(
+      recorded.tally.tell(
           "fps gives the pictures {:g} Hz, and by the video's own times they have {:.4g} Hz",
-          *asked.fps, own_hz));
+          *asked.fps, own_hz);
     }
     return recorded;
   }
   time_by_video(times.t_ns, recorded);
   if (const double nominal_hz = video->get(cv::CAP_PROP_FPS); differs(nominal_hz)) {
-    recorded.tally.tell(fmt::format(
+    recorded.tally.tell(
         "the video states {:.4g} Hz, and its pictures have {:.4g} Hz; each has its own time",
-        nominal_hz, own_hz));
+        nominal_hz, own_hz);
   }
   return recorded;
 }

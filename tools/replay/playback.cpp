@@ -36,9 +36,9 @@ void require_plain_lens(const Lens& lens, const cv::Size& size_px) {
       "if its coefficients are a fisheye's (k1 to k4), give distortion_model: equidistant, or the "
       "option equidistant; else calibrate over the whole picture";
   if (std::max(std::abs(k(2)), std::abs(k(3))) > kMostTangential) {
-    throw input::Error(
-        lens.source, "the distortion's p1 and p2 are {} and {}, and those of a lens are near 0; {}",
-        k(2), k(3), kFisheye);
+    refuse(lens.source,
+           "the distortion's p1 and p2 are {} and {}, and those of a lens are near 0; {}", k(2),
+           k(3), kFisheye);
   }
   const auto bent = [&](double r) {
     const double r2 = r * r;
@@ -50,10 +50,9 @@ void require_plain_lens(const Lens& lens, const cv::Size& size_px) {
   double farthest = 0;
   for (double r = 0; r < kFarthest && bent(r) >= farthest; r += kStep) farthest = bent(r);
   if (farthest >= kInside * corner) return;
-  throw input::Error(
-      lens.source,
-      "the radial distortion folds back at {:.0f} % of the way to the picture's corner; {}",
-      100 * farthest / corner, kFisheye);
+  refuse(lens.source,
+         "the radial distortion folds back at {:.0f} % of the way to the picture's corner; {}",
+         100 * farthest / corner, kFisheye);
 }
 
 }  // namespace
@@ -75,25 +74,24 @@ Playback::Playback(const scenario::Scenario& asked)
 }
 
 void Playback::require_events() const {
-  const scenario::RecordingSource& asked = scenario_.recording.value();
+  const RecordingSource& asked = scenario_.recording.value();
   if (scenario_.corner_source == scenario::CornerSource::events && recorded_.events.empty()) {
-    throw input::Error(asked.source,
-                       "corners.from is 'events', and {} has none; remove the key, or give a "
-                       "recording of an event camera",
-                       asked.path.string());
+    refuse(asked.source,
+           "corners.from is 'events', and {} has none; remove the key, or give a recording of an "
+           "event camera",
+           asked.path.string());
   }
   for (const sim::Event& event : recorded_.events) {
     if (event.x < camera().width_px && event.y < camera().height_px) continue;
-    throw input::Error(asked.source,
-                       "an event of {} is at ({}, {}), and its pictures have {} x {} pixels; give "
-                       "both of one camera",
-                       asked.path.string(), event.x, event.y, camera().width_px,
-                       camera().height_px);
+    refuse(asked.source,
+           "an event of {} is at ({}, {}), and its pictures have {} x {} pixels; give both of one "
+           "camera",
+           asked.path.string(), event.x, event.y, camera().width_px, camera().height_px);
   }
 }
 
 void Playback::read_labels() {
-  const scenario::RecordingSource& asked = scenario_.recording.value();
+  const RecordingSource& asked = scenario_.recording.value();
   if (!asked.labels) return;
   labels_ = recording::read_labels(*asked.labels, asked.labels_video);
   const PictureNumbers& all = recorded_.numbers;
@@ -106,11 +104,10 @@ void Playback::read_labels() {
     pictures.push_back({static_cast<int>(frame.number), file.string(), frame.named});
   }
   try {
-    for (std::string& line : labels_.join(pictures, count, first))
-      recorded_.tally.tell(std::move(line));
+    for (const std::string& line : labels_.join(pictures, count, first))
+      recorded_.tally.tell("{}", line);
   } catch (const std::invalid_argument& error) {
-    throw input::Error({asked.labels->string(), 0}, "{}; give the labels of this recording",
-                       error.what());
+    refuse({*asked.labels}, "{}; give the labels of this recording", error.what());
   }
 }
 
@@ -135,20 +132,20 @@ void Playback::look_at_first_picture() {
   for (std::size_t i = 0; i < recorded_.frames.size() && !first; ++i) {
     first = pictures.read(recorded_.frames[i]);
   }
-  const scenario::RecordingSource& asked = scenario_.recording.value();
+  const RecordingSource& asked = scenario_.recording.value();
   if (!first) {
-    throw input::Error(asked.source,
-                       "none of the pictures in {} can be read (the first: {}); give a recording "
-                       "with its pictures",
-                       asked.path.string(), input::one_line(pictures.skipped().front()));
+    refuse(asked.source,
+           "none of the pictures in {} can be read (the first: {}); give a recording with its "
+           "pictures",
+           asked.path.string(), input::one_line(pictures.skipped().front()));
   }
   Lens& lens = recorded_.lens.value();
   const cv::Size size_px = first->size();
   if (lens.width_px > 0 && size_px != cv::Size(lens.width_px, lens.height_px)) {
-    throw input::Error(lens.source,
-                       "the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
-                       "the calibration of these pictures, or focal",
-                       lens.width_px, lens.height_px, size_px.width, size_px.height);
+    refuse(lens.source,
+           "the calibration is of {} x {} pixels, and the pictures have {} x {}; give the "
+           "calibration of these pictures, or focal",
+           lens.width_px, lens.height_px, size_px.width, size_px.height);
   }
   // A calibration that states no size has its principal point near the middle of its pictures.
   const auto is_near = [](double centre, int side) {
@@ -157,12 +154,12 @@ void Playback::look_at_first_picture() {
   };
   if (lens.width_px == 0 && !lens.centred && !asked.centre_px &&
       !(is_near(lens.cu_px, size_px.width) && is_near(lens.cv_px, size_px.height))) {
-    throw input::Error(lens.source,
-                       "the principal point is ({:.1f}, {:.1f}), near the middle of a picture of "
-                       "{:.0f} x {:.0f} pixels, and the pictures have {} x {}; give the "
-                       "calibration of these pictures, or focal, or centre if they were cut out",
-                       lens.cu_px, lens.cv_px, 2 * lens.cu_px + 1, 2 * lens.cv_px + 1,
-                       size_px.width, size_px.height);
+    refuse(lens.source,
+           "the principal point is ({:.1f}, {:.1f}), near the middle of a picture of {:.0f} x "
+           "{:.0f} pixels, and the pictures have {} x {}; give the calibration of these pictures, "
+           "or focal, or centre if they were cut out",
+           lens.cu_px, lens.cv_px, 2 * lens.cu_px + 1, 2 * lens.cv_px + 1, size_px.width,
+           size_px.height);
   }
   if (lens.centred) {
     lens.cu_px = 0.5 * (size_px.width - 1);
@@ -180,10 +177,10 @@ void Playback::read_mask() {
   const cv::Mat grey = sim::read_picture(*file, where, cv::IMREAD_GRAYSCALE);
   const cv::Size size_px(camera().width_px, camera().height_px);
   if (grey.size() != size_px) {
-    throw input::Error(where,
-                       "the mask {} is of {} x {} pixels, and the pictures have {} x {}; give one "
-                       "of that size, white where the vehicle itself is seen",
-                       file->string(), grey.cols, grey.rows, size_px.width, size_px.height);
+    refuse(where,
+           "the mask {} is of {} x {} pixels, and the pictures have {} x {}; give one of that "
+           "size, white where the vehicle itself is seen",
+           file->string(), grey.cols, grey.rows, size_px.width, size_px.height);
   }
   mask_ = grey > kWhite;
 }
@@ -230,7 +227,7 @@ bool Playback::next(recording::FrameRecord& frame, cv::Mat3b& image) {
 }
 
 void Playback::require_right_motion() const {
-  const scenario::RecordingSource& asked = scenario_.recording.value();
+  const RecordingSource& asked = scenario_.recording.value();
   const fs::path& file = asked.poses ? *asked.poses : asked.imu ? *asked.imu : asked.path;
   motion_check_.require_right(*recorded_.motion, {file.string(), 0});
 }

@@ -1,11 +1,9 @@
 #include "tools/replay/recorded.h"
 
 #include <numeric>
-#include <stdexcept>
 
 #include "scenarios/input/inputs_read.h"
 #include "tools/replay/picture_names.h"
-#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 
@@ -41,16 +39,16 @@ void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string&
     distinct += parts[i].first != parts[i - 1].first;
   }
   if (falls > 0 && falls <= 1 + t_ns.size() / kLeastRows && changes > 2 * (falls + 1)) {
-    throw input::Error({source, 0},
-                       "its clock falls back from {} to {} ns, and its times after that are among "
-                       "those before; give the rows before or after that alone",
-                       t_ns[first_fall - 1], t_ns[first_fall]);
+    refuse({source},
+           "its clock falls back from {} to {} ns, and its times after that are among those "
+           "before; give the rows before or after that alone",
+           t_ns[first_fall - 1], t_ns[first_fall]);
   }
   if (10 * (distinct + 1) >= t_ns.size()) return;
-  throw input::Error({source, 0},
-                     "only {} of its {} times differ, as if a spreadsheet had rounded them; write "
-                     "them with all their digits",
-                     distinct + 1, t_ns.size());
+  refuse({source},
+         "only {} of its {} times differ, as if a spreadsheet had rounded them; write them with "
+         "all their digits",
+         distinct + 1, t_ns.size());
 }
 
 Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source) {
@@ -97,20 +95,20 @@ const std::vector<RecordingLayout>& layouts() {
   return kLayouts;
 }
 
-const RecordingLayout& layout_of(const scenario::RecordingSource& asked) {
+const RecordingLayout& layout_of(const RecordingSource& asked) {
   std::string names;
   input::note_input(asked.path);
   for (const RecordingLayout& layout : layouts()) {
     if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
-  throw input::Error(asked.source,
-                     "{} holds no pictures, and is none of the other layouts that are known ({}); "
-                     "tools/replay/README.md says what each holds; {}",
-                     asked.path.string(), names, kNeutralWay);
+  refuse(asked.source,
+         "{} holds no pictures, and is none of the other layouts that are known ({}); "
+         "tools/replay/README.md says what each holds; {}",
+         asked.path.string(), names, kNeutralWay);
 }
 
-bool motion_is_asked(const scenario::RecordingSource& asked) {
+bool motion_is_asked(const RecordingSource& asked) {
   return asked.poses || asked.imu || (asked.speed_mps && asked.topics.imu.empty());
 }
 
@@ -172,18 +170,15 @@ std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, cons
     });
   }
   if (found.empty()) {
-    throw input::Error(
-        {table.string(), 0},
-        "has {} rows for {} pictures, {}; give one row for each of these pictures", rows,
-        all.pictures,
-        !all.least ? "whose names have no number that counts them"
-                   : fmt::format("{} the numbers {} to {}",
-                                 first ? "and none for" : "which may count from 0 or from 1 by",
-                                 *all.least, *all.greatest));
+    refuse({table}, "has {} rows for {} pictures, {}; give one row for each of these pictures",
+           rows, all.pictures,
+           !all.least ? "whose names have no number that counts them"
+                      : fmt::format("{} the numbers {} to {}",
+                                    first ? "and none for" : "which may count from 0 or from 1 by",
+                                    *all.least, *all.greatest));
   }
-  recorded.tally.tell(fmt::format("{} of the {} rows of {} belong to pictures, by {}: {}",
-                                  found.size(), rows, table.string(),
-                                  first ? "the numbers in their names" : "their order", used));
+  recorded.tally.tell("{} of the {} rows of {} belong to pictures, by {}: {}", found.size(), rows,
+                      table.string(), first ? "the numbers in their names" : "their order", used);
   return found;
 }
 
@@ -198,14 +193,14 @@ void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& fi
   const PictureNumbers& all = recorded.numbers;
   if (!recorded.has_own_clock || all.before_ns == 0) return;
   if (lasts_ns < recorded.frames.back().t_ns + all.before_ns / 2) {
-    recorded.tally.tell(fmt::format("the first row of {} is taken to be at the first picture, {}",
-                                    file.string(), recorded.frames.front().name()));
+    recorded.tally.tell("the first row of {} is taken to be at the first picture, {}",
+                        file.string(), recorded.frames.front().name());
     return;
   }
-  throw input::Error({file.string(), 0},
-                     "the numbers of the pictures begin with {}, and its first row may be at that "
-                     "picture or at number 0; give the times of the pictures (times), on its clock",
-                     *all.least);
+  refuse({file},
+         "the numbers of the pictures begin with {}, and its first row may be at that picture or "
+         "at number 0; give the times of the pictures (times), on its clock",
+         *all.least);
 }
 
 void take_list(const TextTable& list, std::int64_t unit_ns,
@@ -231,8 +226,7 @@ void take_list(const TextTable& list, std::int64_t unit_ns,
 void put_in_order(std::vector<RecordedFrame>& frames, const fs::path& list, Tally& tally) {
   sort_by_time(frames, "pictures", list.string(), tally);
   if (frames.empty()) {
-    throw input::Error({list.string(), 0},
-                       tally.before("lists no picture with a time; give a row for each picture"));
+    refuse({list}, "{}", tally.before("lists no picture with a time; give a row for each picture"));
   }
 }
 
@@ -246,10 +240,10 @@ void keep_within(const ReadingTimes& readings, Recorded& recorded) {
     return is_outside;
   });
   if (recorded.frames.empty()) {
-    throw std::runtime_error(
-        recorded.tally.before(fmt::format("no picture was taken while the sensors recorded, from "
-                                          "{} to {} ns; give both the times of one clock",
-                                          first_ns, last_ns)));
+    refuse({}, "{}",
+           recorded.tally.before(fmt::format("no picture was taken while the sensors recorded, "
+                                             "from {} to {} ns; give both the times of one clock",
+                                             first_ns, last_ns)));
   }
   const auto periods_s = [](const std::vector<std::int64_t>& of, double count) {
     return count / usual_rate_hz(of).value_or(1);
@@ -269,8 +263,8 @@ void keep_within(const ReadingTimes& readings, Recorded& recorded) {
                        static_cast<int>(left_out));
   }
   if (recorded.frames.empty()) {
-    throw std::runtime_error(fmt::format(
-        "all pictures are in gaps of the {}; give both the times of one clock", readings.name));
+    refuse({}, "all pictures are in gaps of the {}; give both the times of one clock",
+           readings.name);
   }
 }
 
@@ -278,9 +272,9 @@ void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_
                         Recorded& recorded) {
   sort_by_time(states, "states of the navigation", "the navigation's", recorded.tally);
   if (states.size() < 2) {
-    throw std::runtime_error(
-        "there are fewer than two states of navigation to tell a motion from; give a table of them "
-        "that covers the pictures");
+    refuse({},
+           "there are fewer than two states of navigation to tell a motion from; give a table of "
+           "them that covers the pictures");
   }
   keep_within({stamps_of(states), "states of the navigation",
                "pictures are outside of the navigation's time and are left out"},

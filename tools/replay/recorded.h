@@ -28,6 +28,8 @@
 
 namespace lcs::replay {
 
+using scenario::RecordingSource;
+
 /// The properties that the pictures of a recording have in common.
 struct PictureFormat {
   cv::Size size_px;             ///< empty: the first picture's size
@@ -78,7 +80,9 @@ class Tally {
   /// \param example of it; only the first one is reported.
   void add(const std::string& what, const std::string& example, int count = 1);
   /// A line that stands for itself; the same one is told once.
-  void tell(std::string line) {
+  template <class... Arguments>
+  void tell(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    std::string line = fmt::format(text, std::forward<Arguments>(arguments)...);
     if (std::ranges::count(remarks_, line) == 0) remarks_.push_back(std::move(line));
   }
   /// A message behind the faults that may explain it.
@@ -199,7 +203,7 @@ using Fits = bool(const fs::path& path);
 /// Reads the layout's own data, except where the user overrides it.
 /// \param exact_motion take the motion from the truth, not the IMU, if both are present.
 /// \throws std::runtime_error with file and line.
-using Read = Recorded(const scenario::RecordingSource& asked, bool exact_motion);
+using Read = Recorded(const RecordingSource& asked, bool exact_motion);
 
 /// A layout of a recording on disk.
 struct RecordingLayout {
@@ -215,7 +219,7 @@ const std::vector<RecordingLayout>& layouts();
 
 /// The layout named by `asked.format`, or else the first one that fits.
 /// \throws input::Error if none fits.
-const RecordingLayout& layout_of(const scenario::RecordingSource& asked);
+const RecordingLayout& layout_of(const RecordingSource& asked);
 
 /// Reads the layout with the user's values in place of its own: the selected frames with their
 /// times, a lens or at least a focal length, and a motion.
@@ -223,7 +227,7 @@ const RecordingLayout& layout_of(const scenario::RecordingSource& asked);
 Recorded read_recorded(const scenario::Scenario& asked);
 
 /// Whether the user provides the camera's motion. A speed beside a topic of an IMU is its start.
-bool motion_is_asked(const scenario::RecordingSource& asked);
+bool motion_is_asked(const RecordingSource& asked);
 
 /// \name The readers.
 ///@{
@@ -234,16 +238,16 @@ Read read_euroc, read_kitti, read_kitti_odometry, read_robotcar, read_tum_rgbd, 
 ///@}
 
 /// The pose of the camera on the body or the IMU by a mount or a calibration of the user.
-std::optional<sim::Pose> camera_on_body(const scenario::RecordingSource& asked,
+std::optional<sim::Pose> camera_on_body(const RecordingSource& asked,
                                         const std::optional<sim::Pose>& otherwise,
                                         Recorded& recorded);
 
 /// Moves the frames' times to the IMU's clock, by `asked.time_offset_s` or else the offset that
 /// `asked.calibration` states.
-void take_time_offset(const scenario::RecordingSource& asked, Recorded& recorded);
+void take_time_offset(const RecordingSource& asked, Recorded& recorded);
 
 /// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
-void take_imu_noise(const scenario::RecordingSource& asked, Recorded& recorded);
+void take_imu_noise(const RecordingSource& asked, Recorded& recorded);
 
 /// Finds the numbers of all pictures, which the frames are. \param are_times the names are times.
 void number_frames(Recorded& recorded, bool are_times);
@@ -307,28 +311,19 @@ void keep_within(const ReadingTimes& readings, Recorded& recorded);
 /// Largest time of a picture after the last reading of an IMU, which is held until then.
 inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
 
-/// Sets the motion from `asked.poses`. \param times_known of the pictures.
+/// Sets the motion from the user's or a layout's poses. \param times_known of the pictures.
+/// \param up_W of their world frame, if the layout says so. \param T_PC of the camera on the one
+/// whose poses they are.
 /// \throws input::Error for unreadable poses, and for a body's poses without the camera's place.
-void move_by_poses(const scenario::RecordingSource& asked, bool times_known, Recorded& recorded);
-
-/// Sets the motion from a layout's file of poses with their times. \param up_W of its world frame.
-/// \throws input::Error for unreadable poses, and for those without times.
-void move_by_timed_poses(const scenario::RecordingSource& asked, const fs::path& file,
-                         const Vector3d& up_W, Recorded& recorded);
-
-/// Sets the motion along the camera's poses, and removes frames outside their time span.
-/// \param level up (against gravity) in their world frame, if known and no mount is given.
-/// \param file of the poses. \param outside what is told of the frames outside.
-/// \throws input::Error if there is no pose.
-void move_along(std::vector<SensorReadings::CameraPose> poses, const std::optional<Vector3d>& level,
-                const scenario::RecordingSource& asked, const fs::path& file, const char* outside,
-                Recorded& recorded);
+void move_by_poses(const RecordingSource& asked, const fs::path& path, bool times_known,
+                   Recorded& recorded, const std::optional<Vector3d>& up_W = {},
+                   const sim::Pose& T_PC = {});
 
 /// Sets the motion from readings of an IMU. Its axes are the vehicle's axes, and the vehicle starts
 /// upright; or any, if `asked.calibration` states the camera's place on it.
 /// \param file of the readings, for messages.
-void move_by_readings(const scenario::RecordingSource& asked, const fs::path& file,
-                      SensorReadings readings, Recorded& recorded);
+void move_by_readings(const RecordingSource& asked, const fs::path& file, SensorReadings readings,
+                      Recorded& recorded);
 
 /// Sets the motion from a navigation unit's states: sorts them, removes duplicate times, and
 /// removes frames outside their time span. \throws std::runtime_error for fewer than two states.

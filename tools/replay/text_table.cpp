@@ -1,6 +1,5 @@
 #include "tools/replay/text_table.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -8,10 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
-#include <sstream>
-#include <utility>
 
-#include "scenarios/input/error.h"
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/replay/picture_names.h"
@@ -30,12 +26,8 @@ char separator_in(std::string_view line) {
 
 std::vector<std::string> fields_in(std::string_view line, char separator) {
   std::vector<std::string> fields;
-  if (separator == ' ') {
-    std::istringstream words{std::string(line)};
-    for (std::string word; words >> word;) fields.push_back(word);
-    return fields;
-  }
-  for (const std::string_view field : files::split(line, separator)) {
+  const auto parts = separator == ' ' ? files::words_of(line) : files::split(line, separator);
+  for (const std::string_view field : parts) {
     fields.emplace_back(files::trimmed(field));
     // Tables with semicolons come from countries that write 0,5.
     if (separator == ';') std::ranges::replace(fields.back(), ',', '.');
@@ -113,11 +105,10 @@ void refuse_foreign(const fs::path& file, const std::vector<std::string>& before
   for (const std::string& line : before) {
     for (const Foreign& one : kForeign) {
       if (in_lower_case(line).find(one.words) == line.npos) continue;
-      throw input::Error({file.string(), 0}, "this table is {}; for its header write {}{}",
-                         one.name, one.header,
-                         std::string_view(one.header).find("p_RS") < 60
-                             ? ", and give the camera's place there by a calibration"
-                             : "");
+      refuse({file}, "this table is {}; for its header write {}{}", one.name, one.header,
+             std::string_view(one.header).find("p_RS") < 60
+                 ? ", and give the camera's place there by a calibration"
+                 : "");
     }
   }
 }
@@ -187,10 +178,10 @@ void require_no_ticks(const TextTable& table, std::size_t column) {
   const auto ticks = files::number_in<std::int64_t>(TextTable::field(row, column));
   for (const std::int64_t at_1970 : {116'444'736'000'000'000, 621'355'968'000'000'000}) {
     if (!ticks || *ticks < at_1970 || *ticks > at_1970 + kSpan) continue;
-    throw input::Error({table.file.string(), row.line},
-                       "its times are ticks of 100 ns (Windows, HoloLens); write (t - {}) * 100, "
-                       "which are ns since 1970",
-                       at_1970);
+    refuse({table.file, row.line},
+           "its times are ticks of 100 ns (Windows, HoloLens); write (t - {}) * 100, which are ns "
+           "since 1970",
+           at_1970);
   }
 }
 
@@ -294,10 +285,9 @@ std::optional<std::size_t> TextTable::time_column() const {
 std::size_t TextTable::column(std::string_view name, std::size_t otherwise) const {
   if (header.empty()) return otherwise;
   if (const auto found = find(name)) return *found;
-  throw input::Error(
-      {file.string(), 1},
-      "the header names no column {}: {}; give each column the name that the layout has for it",
-      name, columns());
+  refuse({file, 1},
+         "the header names no column {}: {}; give each column the name that the layout has for it",
+         name, columns());
 }
 
 TextTable read_table(const fs::path& file) {
@@ -354,10 +344,9 @@ TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally
   }
   const auto column = table.time_column();
   if (!column && !table.header.empty() && !table.is_comment) {
-    throw input::Error(
-        {table.file.string(), 1},
-        "the header names no time: {}; call the column of times time [s], [ms], [us] or [ns]",
-        table.columns());
+    refuse({table.file, 1},
+           "the header names no time: {}; call the column of times time [s], [ms], [us] or [ns]",
+           table.columns());
   }
   return {column.value_or(0), times.unit_ns(table, column.value_or(0), tally)};
 }
@@ -387,9 +376,9 @@ void require_zeros(const TextTable& table, std::size_t column) {
   std::vector<std::string_view> times;
   for (const TextTable::Row& row : table.rows) times.push_back(TextTable::field(row, column));
   if (!lack_zeros(times)) return;
-  throw input::Error({table.file.string(), table.rows.front().line},
-                     "the fractions of its seconds lack leading zeros: 12.5 stands for "
-                     "12.000000005; write them with as many digits each");
+  refuse({table.file, table.rows.front().line},
+         "the fractions of its seconds lack leading zeros: 12.5 stands for 12.000000005; write "
+         "them with as many digits each");
 }
 
 std::optional<std::int64_t> time_unit_named(std::string_view name) {
@@ -463,8 +452,8 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
     constexpr double kSame = 0.2;
     const double hz = period ? rate_hz(unit_ns) : 0;
     if (rate.stated_hz && period && std::abs(hz / *rate.stated_hz - 1) > kSame) {
-      tally.tell(fmt::format("{} has {:.3g} rows a second, and {} states {:g} Hz", file, hz,
-                             rate.stated_by, *rate.stated_hz));
+      tally.tell("{} has {:.3g} rows a second, and {} states {:g} Hz", file, hz, rate.stated_by,
+                 *rate.stated_hz);
     }
     return unit_ns;
   };
@@ -475,13 +464,12 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
           ? fmt::format("{} states {:g} Hz", rate.stated_by, *rate.stated_hz)
           : fmt::format("a sensor of its kind has {:g} to {:g} Hz", rate.least_hz, rate.most_hz);
   const auto contradict = [&](const std::string& by, std::int64_t unit_ns) {
-    throw input::Error(
-        {file, table.rows.front().line},
-        "its times are {}, which gives {:.3g} rows a second, and {}; {}", by, rate_hz(unit_ns),
-        expected,
-        fitting == time_units().end()
-            ? "correct one of the two"
-            : fmt::format("if they are in {0}, give time_unit: {0}", fitting->names.front()));
+    refuse({file, table.rows.front().line},
+           "its times are {}, which gives {:.3g} rows a second, and {}; {}", by, rate_hz(unit_ns),
+           expected,
+           fitting == time_units().end()
+               ? "correct one of the two"
+               : fmt::format("if they are in {0}, give time_unit: {0}", fitting->names.front()));
   };
   // The user's unit may be meant for another table: then this table's own unit fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
@@ -495,10 +483,10 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
   require_no_ticks(table, column);
   if (layouts && fits(*layouts)) return chosen(*layouts);
   if (fitting == time_units().end()) {
-    throw input::Error({file, table.rows.front().line},
-                       "no unit of time gives its rows the rate that they can have: {}; give "
-                       "time_unit (s, ms, us or ns)",
-                       expected);
+    refuse({file, table.rows.front().line},
+           "no unit of time gives its rows the rate that they can have: {}; give time_unit (s, ms, "
+           "us or ns)",
+           expected);
   }
   tally.add(
       "tables of times do not state their unit, and are read in the unit that fits their rate",

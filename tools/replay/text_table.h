@@ -3,23 +3,34 @@
 /// and times of recordings: nanoseconds of a clock with any zero.
 #pragma once
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "filter/radial/median.h"
+#include "scenarios/input/error.h"
 
 namespace lcs::replay {
 
 namespace fs = std::filesystem;
 
 class Tally;
+
+/// Formats problem and remedy. \param where the file, perhaps with its line; empty: told with them.
+template <class... Arguments>
+[[noreturn]] void refuse(const input::Source& where, fmt::format_string<Arguments...> text,
+                         Arguments&&... arguments) {
+  throw input::Error(where, fmt::format(text, std::forward<Arguments>(arguments)...));
+}
 
 struct TextTable {
   struct Column {
@@ -149,10 +160,7 @@ void require_zeros(const TextTable& table, std::size_t column);
 /// The upper median; absent for an empty list.
 template <class Number>
 std::optional<Number> usual(std::vector<Number> values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
 /// The rate of times in ns by their usual difference; absent for fewer than two.
