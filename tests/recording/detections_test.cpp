@@ -18,7 +18,6 @@
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/box.h"
-#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
 

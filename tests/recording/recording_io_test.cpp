@@ -13,7 +13,6 @@
 #include "tests/tools/recordings.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/scoring/scoring.h"
 

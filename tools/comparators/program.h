@@ -12,7 +12,7 @@
 #include "scenarios/scenario.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detector_process.h"
-#include "tools/recording/frame_detections.h"
+#include "tools/recording/detections.h"
 
 namespace lcs::comparators {
 

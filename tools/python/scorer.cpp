@@ -14,7 +14,7 @@
 #include "tools/python/arrays.h"
 #include "tools/python/frame.h"
 #include "tools/python/type.h"
-#include "tools/recording/frame_detections.h"
+#include "tools/recording/detections.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
 

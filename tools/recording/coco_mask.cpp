@@ -1,4 +1,4 @@
-#include "tools/recording/coco_mask.h"
+#include "tools/recording/recording_io.h"
 
 #include <fmt/format.h>
 

@@ -17,8 +17,8 @@
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 #include "tools/files/csv.h"
-#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::recording {
 namespace {

@@ -24,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/files/output_file.h"
@@ -35,6 +36,14 @@ inline constexpr const char* kLayersFile = "layers.jsonl";
 inline constexpr const char* kTruthFile = "truth.jsonl";
 inline constexpr const char* kCameraFile = "camera.json";
 inline constexpr const char* kDetectorFile = "detector.json";
+
+/// \name The run lengths of a mask (`sim/truth/mask.h`) as a string, in pycocotools' format.
+///@{
+std::string packed_runs(const sim::PixelRuns& runs);
+/// \return the run lengths, unchecked: they may be negative or have a wrong sum.
+/// \throws std::invalid_argument for a malformed string.
+std::vector<std::int64_t> unpacked_runs(std::string_view word);
+///@}
 
 /// The path of a file in the folder of a run: NAME, or NAME.gz if only that is there.
 std::filesystem::path stored(const std::filesystem::path& folder, const char* name);

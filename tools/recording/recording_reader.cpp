@@ -16,7 +16,6 @@
 #include "scenarios/input/inputs_read.h"
 #include "scenarios/input/message.h"
 #include "tools/files/json_node.h"
-#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
@@ -434,13 +433,12 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
     Intrinsics& camera = run_.camera.emplace();
     read_member(json, "focal_px", camera.focal_px);
     read_member(json, "centre_px", std::span(camera.centre_px.data(), 2));
-    for (const auto& [key, side] :
-         {std::pair("width_px", &camera.width_px), std::pair("height_px", &camera.height_px)}) {
-      read_member(json, key, *side);
-      within(key, [&, side = side] {
-        require(*side > 0 && *side <= kLongest_px, "the side of a picture");
-      });
-    }
+    const auto read_side = [&](const char* key, int& side) {
+      read_member(json, key, side);
+      if (side < 1 || side > kLongest_px) refuse("{} is not the side of a picture", key);
+    };
+    read_side("width_px", camera.width_px);
+    read_side("height_px", camera.height_px);
   };
   file.require_next(read_camera, kEmpty);
 }

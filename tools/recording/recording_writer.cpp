@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "tools/files/json_node.h"
-#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 
