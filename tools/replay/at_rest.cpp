@@ -141,7 +141,7 @@ Beginning beginning_of(std::span<const sim::ImuSample> readings) {
     const sim::ImuSample& reading = readings[i];
     if (reading.t_ns - readings.front().t_ns > kSpan_ns) break;
     if (i > 0) {
-      const double dt_s = 1e-9 * static_cast<double>(reading.t_ns - readings[i - 1].t_ns);
+      const double dt_s = seconds(reading.t_ns - readings[i - 1].t_ns);
       const double turn_rad = reading.gyro_radps.norm() * dt_s;
       q_S0S = q_S0S * Eigen::Quaterniond(
                           Eigen::AngleAxisd(turn_rad, reading.gyro_radps.stableNormalized()));
@@ -167,8 +167,7 @@ TrueState start_of(std::span<const sim::ImuSample> readings, const RecordingSour
   TrueState start;
   start.t_ns = readings.front().t_ns;
   if (rest) {
-    const std::string until =
-        fmt::format("of {:.2f} s", 1e-9 * static_cast<double>(rest->until_ns - rest->from_ns));
+    const std::string until = fmt::format("of {:.2f} s", seconds(rest->until_ns - rest->from_ns));
     tally.add("times at rest at the start give the IMU's biases and what is upright", until);
     if (rest->moved) {
       tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);

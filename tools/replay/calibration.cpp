@@ -69,6 +69,10 @@ std::vector<double> numbers_in(const Value& value, const std::string& path) {
   return numbers;
 }
 
+int pixels_in(const Value& value, const std::string& path) {
+  return static_cast<int>(input::as_integer(value, path, 1, kMostSide_px));
+}
+
 sim::Pose pose_in(const Value& value, const std::string& path) {
   const std::vector<double> numbers = numbers_in(value, path);
   constexpr std::size_t kRows = 12, kWhole = 16;
@@ -106,29 +110,26 @@ class Keys {
     }
     return nullptr;
   }
-  std::optional<double> number(Names names, const Quantity& quantity = kAny) {
+  /// Of the first of the names that is a key; absent if none is.
+  auto read(Names names, const auto& convert) {
     const Value* value = any_of(names);
-    if (!value) return std::nullopt;
-    return input::as_quantity(*value, path(), quantity);
+    return value ? std::optional(convert(*value, path())) : std::nullopt;
+  }
+  std::optional<double> number(Names names, const Quantity& quantity = kAny) {
+    return read(names, [&](const Value& value, const std::string& path) {
+      return input::as_quantity(value, path, quantity);
+    });
   }
   double require(const std::string& name) {
-    const Value* value = any_of({name.c_str()});
-    if (!value) throw Error(where(), "{} is missing; give it", name);
-    return input::as_quantity(*value, path(), kAny);
+    const auto found = number({name.c_str()});
+    return found ? *found : throw Error(where(), "{} is missing; give it", name);
   }
+  int pixels(Names names) { return read(names, pixels_in).value_or(0); }
   std::vector<double> list(Names names) {
-    const Value* value = any_of(names);
-    return value ? numbers_in(*value, path()) : std::vector<double>{};
+    return read(names, numbers_in).value_or(std::vector<double>{});
   }
-  std::string text(Names names) {
-    const Value* value = any_of(names);
-    return value ? input::as_text(*value, path()) : "";
-  }
-  std::optional<sim::Pose> pose(Names names) {
-    const Value* value = any_of(names);
-    if (!value) return std::nullopt;
-    return pose_in(*value, path());
-  }
+  std::string text(Names names) { return read(names, input::as_text).value_or(""); }
+  std::optional<sim::Pose> pose(Names names) { return read(names, pose_in); }
   /// Of the key that was found last.
   std::string path() const { return reader_.path_of(found_); }
 
@@ -138,12 +139,8 @@ class Keys {
 };
 
 void set_size(Keys& keys, Names widths, Names heights, Lens& lens) {
-  const auto pixels = [&](Names names) {
-    const Value* value = keys.any_of(names);
-    return value ? static_cast<int>(input::as_integer(*value, keys.path(), 1, kMostSide_px)) : 0;
-  };
-  lens.width_px = pixels(widths);
-  lens.height_px = pixels(heights);
+  lens.width_px = keys.pixels(widths);
+  lens.height_px = keys.pixels(heights);
 }
 
 /// \param model a tool's name of a distortion. \throws input::Error for one that is not supported.
@@ -213,8 +210,8 @@ void read_listed(Keys& keys, SensorCalibration& calibration) {
   if (before > 1) lens.alpha = numbers[1];
   if (const Value* size = keys.any_of({"resolution"})) {
     const std::vector<Value>& pair = input::as_list(*size, keys.path(), 2);
-    lens.width_px = static_cast<int>(input::as_integer(pair[0], keys.path(), 1, kMostSide_px));
-    lens.height_px = static_cast<int>(input::as_integer(pair[1], keys.path(), 1, kMostSide_px));
+    lens.width_px = pixels_in(pair[0], keys.path());
+    lens.height_px = pixels_in(pair[1], keys.path());
     lens.source = size->where;
   }
   const std::vector<double> coefficients =

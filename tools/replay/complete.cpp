@@ -52,9 +52,8 @@ void choose(const RecordingSource& asked, int most, std::vector<RecordedFrame>& 
 }
 
 /// Pictures without a line are left out.
-std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const PosesFile& file,
-                                                   Recorded& recorded) {
-  std::vector<PosesMotion::CameraPose> poses;
+CameraPoses poses_by_line(const fs::path& path, const PosesFile& file, Recorded& recorded) {
+  CameraPoses poses;
   take_rows(path, file.lines.size(), "pose", recorded, [&](RecordedFrame& frame, std::size_t row) {
     const auto& line = file.lines[row];
     if (line) frame.t_ns = line->t_ns.value_or(frame.t_ns);
@@ -65,8 +64,7 @@ std::vector<PosesMotion::CameraPose> poses_by_line(const fs::path& path, const P
 }
 
 /// Each line states its picture; between them the motion is linear.
-std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const PosesFile& file,
-                                                     const Recorded& recorded) {
+CameraPoses poses_by_number(const fs::path& path, const PosesFile& file, const Recorded& recorded) {
   if (!recorded.numbers.least && recorded.video.empty()) {
     refuse({path},
            "its rows state the numbers of their pictures, and the names of the pictures have none; "
@@ -76,7 +74,7 @@ std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const
   for (const RecordedFrame& frame : recorded.frames) {
     times_ns[frame.named.value_or(frame.number)] = frame.t_ns;
   }
-  std::vector<PosesMotion::CameraPose> poses;
+  CameraPoses poses;
   for (const auto& line : file.lines) {
     const auto found = line ? times_ns.find(*line->number) : times_ns.end();
     if (found != times_ns.end()) poses.push_back({found->second, line->T_WC});
@@ -86,8 +84,8 @@ std::vector<PosesMotion::CameraPose> poses_by_number(const fs::path& path, const
 
 /// TUM poses belong to pictures by time; if the pictures have their own clock, the first pose
 /// belongs to the first picture.
-std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool own_clock) {
-  std::vector<PosesMotion::CameraPose> poses;
+CameraPoses poses_by_time(const PosesFile& file, bool own_clock) {
+  CameraPoses poses;
   for (const auto& line : file.lines) {
     if (line) poses.push_back({line->t_ns.value(), line->T_WC});
   }
@@ -143,7 +141,7 @@ void require_vehicle_axes(const std::vector<sim::ImuSample>& readings, const fs:
 }
 
 /// From each pose to the next: m and rad.
-std::vector<double> ways_of(const std::vector<PosesMotion::CameraPose>& poses) {
+std::vector<double> ways_of(const CameraPoses& poses) {
   std::vector<double> ways;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const sim::Pose &a = poses[i - 1].T_WC, &b = poses[i].T_WC;
@@ -154,7 +152,7 @@ std::vector<double> ways_of(const std::vector<PosesMotion::CameraPose>& poses) {
 
 /// Removes poses that repeat the one before to the bit, where this is no camera that stands: all
 /// are held until the next, or the next is a jump.
-void drop_held(std::vector<PosesMotion::CameraPose>& poses, Tally& tally) {
+void drop_held(CameraPoses& poses, Tally& tally) {
   constexpr double kNearlyAll = 0.8, kJump = 3;
   const std::vector<double> ways = ways_of(poses);
   std::vector<double> moved;
@@ -166,7 +164,7 @@ void drop_held(std::vector<PosesMotion::CameraPose>& poses, Tally& tally) {
   }
   const bool are_held = after_a_repeat > kNearlyAll * static_cast<double>(moved.size());
   const double jump = kJump * usual(moved).value_or(0);
-  std::vector<PosesMotion::CameraPose> kept;
+  CameraPoses kept;
   double next = 0;  // the next way that is not 0
   for (std::size_t i = poses.size(); i-- > 0;) {
     const bool is_repeat = i > 0 && ways[i - 1] == 0;
@@ -403,7 +401,7 @@ void move_by_poses(const RecordingSource& asked, const fs::path& path, bool time
   if (!times_known) sort_by_time(recorded.frames, "pictures", path.string(), recorded.tally);
   sort_by_time(poses, "poses", path.string(), recorded.tally);
   drop_held(poses, recorded.tally);
-  for (PosesMotion::CameraPose& pose : poses) pose.T_WC = pose.T_WC * T_PC;
+  for (CameraPose& pose : poses) pose.T_WC = pose.T_WC * T_PC;
   const std::vector<double> ways = ways_of(poses);
   const double usual_way = usual(ways).value_or(0);
   ReadingTimes times{stamps_of(poses), "poses",

@@ -118,11 +118,11 @@ void move_as_run(const fs::path& mav, const std::string& camera,
     readings.poses = read_pose_csv(poses, recorded.tally);
   }
   // A run's clock begins at 0.
-  const std::int64_t epoch_ns = exact.start_ns;
-  for (sim::ImuSample& sample : readings.imu) sample.t_ns -= epoch_ns;
-  for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= epoch_ns;
-  const std::int64_t camera_ns = epoch_ns - std::llround(1e9 * exact.calibration.time_offset_s);
-  for (SensorReadings::CameraPose& pose : readings.poses) pose.t_ns -= camera_ns;
+  for (sim::ImuSample& sample : readings.imu) sample.t_ns -= exact.start_ns;
+  for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= exact.start_ns;
+  const std::int64_t camera_ns =
+      exact.start_ns - std::llround(1e9 * exact.calibration.time_offset_s);
+  for (CameraPose& pose : readings.poses) pose.t_ns -= camera_ns;
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= camera_ns;
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
@@ -164,7 +164,7 @@ void require_gravity_down(const TrueState& start, const std::vector<sim::ImuSamp
   constexpr double kSpan_s = 1;
   Vector3d force_S = Vector3d::Zero();
   for (const sim::ImuSample& sample : imu) {
-    const double since_s = 1e-9 * static_cast<double>(sample.t_ns - start.t_ns);
+    const double since_s = seconds(sample.t_ns - start.t_ns);
     if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
   }
   if ((start.state.q_WB * force_S).z() >= 0) return;

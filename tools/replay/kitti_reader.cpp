@@ -343,12 +343,12 @@ Recorded read_kitti_tracking(const RecordingSource& asked, bool) {
     if (!lines.back()) recorded.tally.add(kNoState, table.at(row));
   }
   std::vector<NavigationState> states;
-  const auto rows = take_rows(oxts, lines.size(), "state", recorded);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!lines[rows[i]]) continue;
-    states.push_back(*lines[rows[i]]);
-    states.back().t_ns = recorded.frames[i].t_ns;
-  }
+  take_rows(oxts, lines.size(), "state", recorded, [&](RecordedFrame& frame, std::size_t row) {
+    if (!lines[row]) return true;  // between two states the motion is linear
+    states.push_back(*lines[row]);
+    states.back().t_ns = frame.t_ns;
+    return true;
+  });
   const sim::Pose T_BC = T_BC_of(calibration, projection, "R_rect", calibration.pose("Tr_velo_cam"),
                                  calibration.pose("Tr_imu_velo"));
   move_by_navigation(std::move(states), T_BC, recorded);

@@ -32,7 +32,7 @@ SteadyMotion::SteadyMotion(double speed_mps, const std::optional<Vector3d>& moun
 EgoMotion SteadyMotion::at(std::int64_t t_ns) {
   EgoMotion motion;
   if (last_ns_) {
-    motion.dt_s = static_cast<double>(t_ns - *last_ns_) * 1e-9;
+    motion.dt_s = seconds(t_ns - *last_ns_);
     motion.v_C_mps = {0, 0, speed_mps_};
     motion.unseen_turn_rad = unseen_turn_rad(motion.dt_s);
   }
@@ -112,9 +112,8 @@ std::vector<MotionSource::Reading> SensorMotion::other_readings() const {
   return all;
 }
 
-std::vector<PosesMotion::CameraPose> poses_along(const std::vector<NavigationState>& states,
-                                                 const std::vector<std::int64_t>& frames_ns,
-                                                 const sim::Pose& T_BC) {
+CameraPoses poses_along(const std::vector<NavigationState>& states,
+                        const std::vector<std::int64_t>& frames_ns, const sim::Pose& T_BC) {
   std::vector<NavigationState> all = states;
   for (const std::int64_t t_ns : frames_ns) {
     const auto [a, b, share] = around(t_ns, states);
@@ -122,11 +121,11 @@ std::vector<PosesMotion::CameraPose> poses_along(const std::vector<NavigationSta
         {t_ns, a.q_WB.slerp(share, b.q_WB), (1 - share) * a.v_WB_mps + share * b.v_WB_mps});
   }
   std::ranges::stable_sort(all, {}, &NavigationState::t_ns);
-  std::vector<PosesMotion::CameraPose> poses;
+  CameraPoses poses;
   Vector3d p_WB_m = Vector3d::Zero();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0) {
-      const double dt_s = static_cast<double>(all[i].t_ns - all[i - 1].t_ns) * 1e-9;
+      const double dt_s = seconds(all[i].t_ns - all[i - 1].t_ns);
       if (dt_s <= 0) continue;
       p_WB_m += 0.5 * dt_s * (all[i - 1].v_WB_mps + all[i].v_WB_mps);
     }
@@ -143,7 +142,7 @@ std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
   std::vector<Reading> all;
   if (!may_be_misread_) return all;
   const auto add = [&](const char* remedy, const auto& read) {
-    std::vector<CameraPose> poses = poses_;
+    CameraPoses poses = poses_;
     for (CameraPose& pose : poses) pose.T_WC = read(pose.T_WC);
     all.push_back({remedy, std::make_unique<PosesMotion>(std::move(poses), up_W_)});
   };
@@ -163,7 +162,7 @@ std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
   return all;
 }
 
-PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W,
+PosesMotion::PosesMotion(CameraPoses poses, const std::optional<Vector3d>& up_W,
                          bool may_be_misread)
     : poses_(std::move(poses)), up_W_(up_W), may_be_misread_(may_be_misread) {}
 
@@ -178,7 +177,7 @@ EgoMotion PosesMotion::at(std::int64_t t_ns) {
   const CameraPose now{t_ns, pose_at(t_ns)};
   EgoMotion motion;
   if (last_) {
-    const double dt_s = static_cast<double>(now.t_ns - last_->t_ns) * 1e-9;
+    const double dt_s = seconds(now.t_ns - last_->t_ns);
     motion = bench::motion_between(last_->T_WC, now.T_WC, dt_s);
   }
   last_ = now;

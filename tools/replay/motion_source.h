@@ -75,15 +75,17 @@ class SteadyMotion : public MotionSource {
   std::optional<std::int64_t> last_ns_;
 };
 
+struct CameraPose {
+  std::int64_t t_ns;
+  sim::Pose T_WC;
+};
+using CameraPoses = std::vector<CameraPose>;
+
 /// The recorded readings of a rover's sensors, by time.
 struct SensorReadings {
   std::vector<sim::ImuSample> imu;
   std::vector<sim::OdometrySample> odometry;
-  struct CameraPose {
-    std::int64_t t_ns;
-    sim::Pose T_WC;
-  };
-  std::vector<CameraPose> poses;  ///< exact, at frames
+  CameraPoses poses;  ///< exact, at frames
 };
 
 /// Removes readings before a time, and counts the remaining times from it.
@@ -125,13 +127,10 @@ struct NavigationState {
 /// Differences of camera poses; linear between two poses.
 class PosesMotion : public MotionSource {
  public:
-  using CameraPose = SensorReadings::CameraPose;
-
   /// \param poses by time, without duplicate times, at least one.
   /// \param up_W up (against gravity) in the poses' world frame, if known.
   /// \param may_be_misread others write such poses by other conventions.
-  PosesMotion(std::vector<CameraPose> poses, const std::optional<Vector3d>& up_W,
-              bool may_be_misread = true);
+  PosesMotion(CameraPoses poses, const std::optional<Vector3d>& up_W, bool may_be_misread = true);
   /// Before the first and after the last pose, that pose is held.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Vector3d> up_C() const override;
@@ -141,7 +140,7 @@ class PosesMotion : public MotionSource {
  private:
   sim::Pose pose_at(std::int64_t t_ns) const;
 
-  std::vector<CameraPose> poses_;
+  CameraPoses poses_;
   std::optional<Vector3d> up_W_;
   bool may_be_misread_;
   std::optional<CameraPose> last_;
@@ -149,8 +148,7 @@ class PosesMotion : public MotionSource {
 
 /// The camera's poses at the times of states and of frames, with z up. Between two states
 /// velocities are linear. \param states by time, at least one. \param frames_ns within their time.
-std::vector<PosesMotion::CameraPose> poses_along(const std::vector<NavigationState>& states,
-                                                 const std::vector<std::int64_t>& frames_ns,
-                                                 const sim::Pose& T_BC);
+CameraPoses poses_along(const std::vector<NavigationState>& states,
+                        const std::vector<std::int64_t>& frames_ns, const sim::Pose& T_BC);
 
 }  // namespace lcs::replay

@@ -104,8 +104,7 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
     if (!line || !v_mps) continue;
     if (before) {
       by_places_m += (line->T_WC.p - before->T_WC.p).norm();
-      by_velocities_m +=
-          1e-9 * static_cast<double>(*line->t_ns - *before->t_ns) * Vector3d(v_mps->data()).norm();
+      by_velocities_m += seconds(*line->t_ns - *before->t_ns) * Vector3d(v_mps->data()).norm();
     }
     before = &*line;
   }
@@ -139,7 +138,7 @@ std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
     }
-    const auto more = last ? files::number_in<double>(TextTable::field(row, *last)) : std::nullopt;
+    const auto more = last ? TextTable::number(row, *last) : std::nullopt;
     if (more) numbers->push_back(*more);
     rows.push_back({*t_ns, std::move(*numbers)});
   }
@@ -260,10 +259,10 @@ double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor)
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   std::size_t begin = 0;
   for (std::size_t i = 1; i < std::min(samples.size(), kMost); ++i) {
-    const double dt_s = 1e-9 * static_cast<double>(samples[i].t_ns - samples[i - 1].t_ns);
+    const double dt_s = seconds(samples[i].t_ns - samples[i - 1].t_ns);
     const Vector3d turn = factor * dt_s * samples[i].gyro_radps;
     if (turn.norm() > 0) q = q * Eigen::AngleAxisd(turn.norm(), turn.normalized());
-    if (1e-9 * static_cast<double>(samples[i].t_ns - samples[begin].t_ns) < kSpan_s) continue;
+    if (seconds(samples[i].t_ns - samples[begin].t_ns) < kSpan_s) continue;
     const Vector3d predicted = q.conjugate() * force(begin);
     errors.push_back(std::atan2(predicted.cross(force(i)).norm(), predicted.dot(force(i))));
     q.setIdentity();
@@ -335,18 +334,13 @@ std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row, const fs::pa
 
 /// Counts gaps between readings that exceed four of their usual periods.
 void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
-  constexpr int kSilentPeriods = 4;
-  std::vector<std::int64_t> periods;
+  constexpr double kSilentPeriods = 4;
+  const double longest_s = kSilentPeriods / usual_rate_hz(stamps_of(samples)).value_or(1);
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
-  }
-  const auto period_ns = usual(periods);
-  for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (periods[i] / kSilentPeriods > *period_ns) {
-      tally.add("gaps are in the readings of the IMU, in which the last one is held",
-                fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
-                            samples[i].t_ns));
-    }
+    const double gap_s = seconds(samples[i].t_ns - samples[i - 1].t_ns);
+    if (gap_s <= longest_s) continue;
+    tally.add("gaps are in the readings of the IMU, in which the last one is held",
+              fmt::format("{:.3f} s after {} ns", gap_s, samples[i - 1].t_ns));
   }
 }
 
@@ -447,10 +441,10 @@ std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const T
   return samples;
 }
 
-std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tally& tally) {
+CameraPoses read_pose_csv(const fs::path& file, Tally& tally) {
   static constexpr std::array<const char*, 12> kNames{
       "R_00", "R_01", "R_02", "p_x", "R_10", "R_11", "R_12", "p_y", "R_20", "R_21", "R_22", "p_z"};
-  std::vector<SensorReadings::CameraPose> poses;
+  CameraPoses poses;
   for (const NumberRow& row : read_numbers(file, kNames, {"ns", {}, {}}, tally)) {
     std::array<double, 16> matrix{};
     std::ranges::copy(row.numbers, matrix.begin());
@@ -490,7 +484,7 @@ std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& ti
     std::size_t a = i, b = i;
     while (a > 0 && states[i].t_ns - states[a].t_ns < kHalfSpan_ns) --a;
     while (b + 1 < states.size() && states[b].t_ns - states[i].t_ns < kHalfSpan_ns) ++b;
-    const double span_s = 1e-9 * static_cast<double>(states[b].t_ns - states[a].t_ns);
+    const double span_s = seconds(states[b].t_ns - states[a].t_ns);
     if (span_s > 0) states[i].state.v_WB_mps = (places_m[b] - places_m[a]) / span_s;
   }
   tally.add(

@@ -59,7 +59,7 @@ std::vector<sim::OdometrySample> read_odometry_csv(const fs::path& file, const T
                                                    Tally& tally);
 
 /// Exact poses of the camera, as written by `lcs generate`.
-std::vector<SensorReadings::CameraPose> read_pose_csv(const fs::path& file, Tally& tally);
+CameraPoses read_pose_csv(const fs::path& file, Tally& tally);
 
 /// \param has_velocities with biases, as EuRoC; else from poses alone (columns of EuRoC up to
 /// q_RS_z):

@@ -205,8 +205,7 @@ bool increases(const RowOfFrame& rows, std::size_t column) {
   std::size_t falls = 0;
   std::optional<double> before;
   for (const TextTable::Row* row : rows) {
-    const auto number =
-        row ? files::number_in<double>(TextTable::field(*row, column)) : std::nullopt;
+    const auto number = row ? TextTable::number(*row, column) : std::nullopt;
     falls += before && number && *number <= *before;
     if (number) before = number;
   }
@@ -219,8 +218,7 @@ std::size_t time_column(const TextTable& table, std::optional<std::size_t> names
   const std::size_t columns = table.rows.front().fields.size();
   const bool has_header = !table.header.empty() && !table.is_comment;
   for (std::size_t i = 0; i < columns && !has_header; ++i) {
-    const bool is_number =
-        files::number_in<double>(TextTable::field(table.rows.front(), i)).has_value();
+    const bool is_number = TextTable::number(table.rows.front(), i).has_value();
     if (columns == 1 && is_number && (!is_count(table, i) || increases(rows, i))) return i;
     if (i != names && is_number && !is_count(table, i) && increases(rows, i)) return i;
   }
@@ -322,9 +320,10 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
   }
   const std::size_t pictures = recorded.frames.size();
   if (!names) {
-    for (const std::size_t row : take_rows(file, table.rows.size(), "time", recorded)) {
+    take_rows(file, table.rows.size(), "time", recorded, [&](RecordedFrame&, std::size_t row) {
       rows.push_back(&table.rows[row]);
-    }
+      return true;
+    });
   }
   if (rows.size() < pictures) {
     refuse({file},

@@ -64,6 +64,12 @@ Name name_of(const fs::path& file) {
   return name;
 }
 
+std::vector<Name> names_of(const std::vector<fs::path>& files) {
+  std::vector<Name> names;
+  std::ranges::transform(files, std::back_inserter(names), name_of);
+  return names;
+}
+
 [[noreturn]] void refuse(const Name& of, const std::string& why) {
   throw input::Error({of.file.parent_path().string(), 0},
                      "the order of its pictures is not certain: {}; take away all but the pictures "
@@ -247,8 +253,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 
 std::vector<std::size_t> numbers_in(const std::vector<fs::path>& files) {
   constexpr std::size_t kMost = 100'000'000;
-  std::vector<Name> names;
-  std::ranges::transform(files, std::back_inserter(names), name_of);
+  const std::vector<Name> names = names_of(files);
   const bool have_one =
       std::ranges::all_of(names, [](const Name& n) { return n.numbers.size() == 1; });
   const bool are_alike =
@@ -269,8 +274,7 @@ std::vector<std::size_t> numbers_in(const std::vector<fs::path>& files) {
 
 OrderedPictures in_order(std::vector<fs::path> files, const std::string& time_unit) {
   std::ranges::sort(files);
-  std::vector<Name> names;
-  std::ranges::transform(files, std::back_inserter(names), name_of);
+  std::vector<Name> names = names_of(files);
   require_one_kind(names);
   OrderedPictures ordered;
   if (!names.front().numbers.empty()) {

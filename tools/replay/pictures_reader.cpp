@@ -208,7 +208,7 @@ Recorded read_video(const RecordingSource& asked, bool) {
     recorded.tally.tell("the video ends after {} of the {} pictures of its header",
                         times.t_ns.size(), times.counted);
   }
-  const double span_s = 1e-9 * static_cast<double>(times.t_ns.back() - times.t_ns.front());
+  const double span_s = seconds(times.t_ns.back() - times.t_ns.front());
   const double own_hz = static_cast<double>(times.t_ns.size() - 1) / span_s;
   const auto differs = [&](double hz) {
     constexpr double kSame = 0.05;

@@ -20,7 +20,7 @@ constexpr std::size_t kMostToldOneByOne = 5;
 
 double frames_per_second(const std::vector<RecordedFrame>& frames) {
   if (frames.size() < 2) return 1;
-  const double span_s = static_cast<double>(frames.back().t_ns - frames.front().t_ns) * 1e-9;
+  const double span_s = seconds(frames.back().t_ns - frames.front().t_ns);
   return static_cast<double>(frames.size() - 1) / span_s;
 }
 

@@ -143,8 +143,8 @@ void number_frames(Recorded& recorded, bool are_times) {
   if (greatest == least) all.step = 1;
 }
 
-std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, const char* what,
-                                   Recorded& recorded) {
+void take_rows(const fs::path& table, std::size_t rows, const char* what, Recorded& recorded,
+               const std::function<bool(RecordedFrame&, std::size_t)>& use) {
   const PictureNumbers& all = recorded.numbers;
   if (all.pictures == 0) number_frames(recorded, false);
   std::optional<std::size_t> first;
@@ -155,21 +155,20 @@ std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, cons
             : ends_with_last             ? std::optional(0UL)
                                          : std::nullopt;
   }
-  std::vector<std::size_t> found;
+  std::size_t found = 0;
   std::string used;
   if (rows == all.pictures || first) {
-    std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
+    std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
       const std::size_t row = first ? *frame.named - *first : frame.number;  // may wrap: no row
       if (row >= rows) {
         recorded.tally.add(fmt::format("pictures have no {} and are left out", what), frame.name());
         return true;
       }
-      if (found.empty()) used = fmt::format("row {} to {}", row + 1, frame.name());
-      found.push_back(row);
-      return false;
+      if (found++ == 0) used = fmt::format("row {} to {}", row + 1, frame.name());
+      return !use(frame, row);
     });
   }
-  if (found.empty()) {
+  if (found == 0) {
     refuse({table}, "has {} rows for {} pictures, {}; give one row for each of these pictures",
            rows, all.pictures,
            !all.least ? "whose names have no number that counts them"
@@ -177,16 +176,8 @@ std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, cons
                                     first ? "and none for" : "which may count from 0 or from 1 by",
                                     *all.least, *all.greatest));
   }
-  recorded.tally.tell("{} of the {} rows of {} belong to pictures, by {}: {}", found.size(), rows,
+  recorded.tally.tell("{} of the {} rows of {} belong to pictures, by {}: {}", found, rows,
                       table.string(), first ? "the numbers in their names" : "their order", used);
-  return found;
-}
-
-void take_rows(const fs::path& table, std::size_t rows, const char* what, Recorded& recorded,
-               const std::function<bool(RecordedFrame&, std::size_t)>& use) {
-  const std::vector<std::size_t> found = take_rows(table, rows, what, recorded);
-  auto row = found.begin();
-  std::erase_if(recorded.frames, [&](RecordedFrame& frame) { return !use(frame, *row++); });
 }
 
 void require_start(Recorded& recorded, std::int64_t lasts_ns, const fs::path& file) {
@@ -252,7 +243,7 @@ void keep_within(const ReadingTimes& readings, Recorded& recorded) {
       std::max(periods_s(times_ns, kPeriods), periods_s(stamps_of(recorded.frames), kFrames));
   for (std::size_t i = 1; i < times_ns.size(); ++i) {
     const std::int64_t from_ns = times_ns[i - 1], to_ns = times_ns[i];
-    const double silent_s = 1e-9 * static_cast<double>(to_ns - from_ns);
+    const double silent_s = seconds(to_ns - from_ns);
     if (silent_s <= gap_s || readings.is_known(i)) continue;
     const auto left_out = std::erase_if(recorded.frames, [&](const RecordedFrame& frame) {
       return frame.t_ns > from_ns && frame.t_ns < to_ns;

@@ -252,14 +252,11 @@ void take_imu_noise(const RecordingSource& asked, Recorded& recorded);
 /// Finds the numbers of all pictures, which the frames are. \param are_times the names are times.
 void number_frames(Recorded& recorded, bool are_times);
 
-/// The row (from 0) of a table for each frame; frames without one are left out. As many rows as
-/// pictures are theirs in order. Else row k is of number `first + k`: `first` is the layout's, or 0
-/// if a picture has it, or lets the table end with the last picture. Tells how many rows are used.
+/// Calls `use(frame, row)` with the row (from 0) of a table for each frame; frames without one, or
+/// whose row `use` does not take, are left out. As many rows as pictures are theirs in order. Else
+/// row k is of number `first + k`: `first` is the layout's, or 0 if a picture has it, or lets the
+/// table end with the last picture. Tells how many rows are used.
 /// \param what the rows state, as "time". \throws input::Error if there is no such number or row.
-std::vector<std::size_t> take_rows(const fs::path& table, std::size_t rows, const char* what,
-                                   Recorded& recorded);
-
-/// As above; leaves out frames whose row `use(frame, row)` does not take.
 void take_rows(const fs::path& table, std::size_t rows, const char* what, Recorded& recorded,
                const std::function<bool(RecordedFrame&, std::size_t)>& use);
 

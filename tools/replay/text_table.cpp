@@ -237,13 +237,17 @@ std::string_view TextTable::field(const Row& row, std::size_t column) {
   return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
 }
 
+std::optional<double> TextTable::number(const Row& row, std::size_t column) {
+  return files::number_in<double>(field(row, column));
+}
+
 std::optional<std::vector<double>> TextTable::numbers(const Row& row,
                                                       std::span<const std::size_t> columns) {
   std::vector<double> numbers;
   for (const std::size_t column : columns) {
-    const auto number = files::number_in<double>(field(row, column));
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
+    const auto one = number(row, column);
+    if (!one) return std::nullopt;
+    numbers.push_back(*one);
   }
   return numbers;
 }

@@ -54,6 +54,7 @@ struct TextTable {
   std::string at(const Row& row) const;
   /// The field of a row; "" if the row is shorter.
   static std::string_view field(const Row& row, std::size_t column);
+  static std::optional<double> number(const Row& row, std::size_t column);
   /// The numbers in columns of a row; absent unless all are there.
   static std::optional<std::vector<double>> numbers(const Row& row,
                                                     std::span<const std::size_t> columns);
@@ -96,6 +97,11 @@ inline constexpr std::int64_t kFarthest_ns = std::numeric_limits<std::int64_t>::
 
 inline bool is_time(std::int64_t t_ns) {
   return t_ns >= -kFarthest_ns && t_ns <= kFarthest_ns;
+}
+
+/// A span of ns.
+inline double seconds(std::int64_t span_ns) {
+  return 1e-9 * static_cast<double>(span_ns);
 }
 
 /// \name Units of time, in ns.
