@@ -1,6 +1,6 @@
 /// \file
 /// The single list of all keys of a scenario file. Reading (`load.cpp`), writing (`written.h`), the
-/// text of `lcs run --keys` and `scenario.schema.json` (both `keys.cpp`) use it.
+/// text of `lcs run --keys` (`keys.cpp`) and `scenario.schema.json` (tests/scenarios) use it.
 ///
 /// Each `fields` lists the keys of one map: it calls `visit(key, member, form)` for each key in the
 /// order of output. A form is needed where the member's type does not determine the accepted

@@ -1,6 +1,5 @@
 /// \file
-/// Documentation of the keys of a scenario file, its JSON Schema, and the keys of a scenario: all
-/// by `fields.h`.
+/// Documentation of the keys of a scenario file, and the keys of a scenario: both by `fields.h`.
 #pragma once
 
 #include <string>
@@ -13,10 +12,6 @@ namespace lcs::scenario {
 /// All keys for a terminal: the path of each key ("NAME" and "N" for any name and index), its
 /// meaning, the effect of omitting it, and the accepted values.
 std::string keys_text();
-
-/// A JSON Schema (draft-07) of scenario files, with every key and the kind of its value. The loader
-/// also checks ranges of numbers with a unit, the order of times, and that files exist.
-std::string schema_text();
 
 /// The keys of a scenario that differ from their defaults, for `yaml_text`; the inverse of
 /// `load.h`. Numbers have 12 digits. Paths are unchanged; a reader resolves relative paths against

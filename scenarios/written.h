@@ -142,6 +142,17 @@ input::Value all_keys(HasFields auto object, bool is_default = false) {
   return keys;
 }
 
+/// The effect of omitting a key, such as its default. \param defaults all keys of its map.
+inline std::string default_text(const Key& key, const input::Value& defaults) {
+  if (!key.without.empty()) return std::string(key.without);
+  for (const input::Entry& entry : defaults.entries) {
+    if (entry.key == key.name && entry.value.kind != input::Value::Kind::map) {
+      return std::string("`").append(input::line_of(entry.value)).append("`");
+    }
+  }
+  return "";
+}
+
 /// The default of the struct, given its other values: the noise of an IMU depends on its preset.
 template <class T>
 T default_beside(const T&) {

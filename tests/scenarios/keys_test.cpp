@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/scenarios/scenario_file.h"
+#include "tests/scenarios/schema.h"
 #include "tests/tools/files.h"
 
 namespace lcs::scenario {
