@@ -268,44 +268,41 @@ void read_value(const Item& item, Plain, Distortion& out) {
   read_value(Item{list, path, item.folder}, kCoefficient, out.coefficients);
 }
 
-constexpr const char* kNotLater = "', not after the one before; make the times increase";
+/// Reads a list of two or more elements: an increasing time, and `length` - 1 other numbers.
+/// \param read_number reads the one of these at a place from 0 on.
+template <class T>
+void read_timed(const Item& item, std::size_t length, std::string_view what_to_give,
+                std::vector<T>& out, const auto& read_number) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
+    const Item next = item.at(out.size(), value);
+    const std::vector<input::Value>& numbers = input::as_list(value, next.path, length);
+    T timed;
+    read_value(next.at(0, numbers[0]), kTime, timed.at_s);
+    for (std::size_t i = 1; i < length; ++i) {
+      read_number(next.at(i, numbers[i]), static_cast<Eigen::Index>(i) - 1, timed);
+    }
+    if (!out.empty() && timed.at_s <= out.back().at_s) {
+      next.refuse(" is at '" + numbers[0].text +
+                  "', not after the one before; make the times increase");
+    }
+    out.push_back(timed);
+  }
+  if (out.size() < 2) item.refuse(fmt::format(" has fewer than two {}", what_to_give));
+}
 
 void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
-  for (const input::Value& value : input::as_list(item.value, item.path)) {
-    const Item next = item.at(points.size(), value);
-    const std::vector<input::Value>& triple = input::as_list(value, next.path, 3);
-    const Waypoint point{input::as_quantity(triple[0], next.path + ".0", kTime),
-                         {input::as_quantity(triple[1], next.path + ".1", kPosition),
-                          input::as_quantity(triple[2], next.path + ".2", kPosition)}};
-    if (!points.empty() && point.at_s <= points.back().at_s) {
-      next.refuse(" is at '" + triple[0].text + kNotLater);
-    }
-    points.push_back(point);
-  }
-  if (points.size() < 2) {
-    item.refuse(" has fewer than two waypoints; give two or more [time, x, y]");
-  }
+  read_timed(item, 3, "waypoints; give two or more [time, x, y]", points,
+             [](const Item& number, Eigen::Index i, Waypoint& point) {
+               read_value(number, kPosition, point.position_m[i]);
+             });
 }
 
 void read_value(const Item& item, Plain, std::vector<PathPose>& path) {
-  for (const input::Value& value : input::as_list(item.value, item.path)) {
-    const Item next = item.at(path.size(), value);
-    const std::vector<input::Value>& seven = input::as_list(value, next.path, 7);
-    PathPose pose;
-    read_value(next.at(0, seven[0]), kTime, pose.at_s);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Eigen::Index>(i);
-      read_value(next.at(1 + i, seven[1 + i]), kPosition, pose.position_m[axis]);
-      read_value(next.at(4 + i, seven[4 + i]), kAngle, pose.rpy_rad[axis]);
-    }
-    if (!path.empty() && pose.at_s <= path.back().at_s) {
-      next.refuse(" is at '" + seven[0].text + kNotLater);
-    }
-    path.push_back(pose);
-  }
-  if (path.size() < 2) {
-    item.refuse(" has fewer than two poses; give two or more [time, x, y, z, roll, pitch, yaw]");
-  }
+  read_timed(item, 7, "poses; give two or more [time, x, y, z, roll, pitch, yaw]", path,
+             [](const Item& number, Eigen::Index i, PathPose& pose) {
+               i < 3 ? read_value(number, kPosition, pose.position_m[i])
+                     : read_value(number, kAngle, pose.rpy_rad[i - 3]);
+             });
 }
 
 void read_value(const Item& item, Plain, Waypoints& waypoints) {
