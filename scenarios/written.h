@@ -28,7 +28,9 @@ inline input::Value map() {
   return {input::Value::Kind::map, {}};
 }
 /// Adds a key to a map.
-void put(input::Value& map, std::string_view key, const input::Value& value);
+inline void put(input::Value& map, std::string_view key, const input::Value& value) {
+  map.entries.push_back({std::string(key), value.where, value});
+}
 
 /// \name A value by its type and form; null if there is nothing to write. Numbers have 12 digits.
 /// Paths are unchanged; a reader resolves relative paths against the file's folder.
