@@ -81,12 +81,9 @@ class ChildProcess {
 /// Requests termination of all children before the destructor waits for the first one.
 class Pool : public std::list<ChildProcess> {
  public:
-  Pool() = default;
   ~Pool() {
     for (const ChildProcess& child : *this) child.ask_to_end();
   }
-  Pool(const Pool&) = delete;
-  Pool& operator=(const Pool&) = delete;
 };
 
 }  // namespace

@@ -385,10 +385,7 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
   const auto add = [&](const SuiteResult& by) {
     text += fmt::format("| `{}` |", by.detector);
     for (const std::string_view key : keys) {
-      std::vector<double> figures;
-      for (const ScenarioResult& scenario : by.scenarios) {
-        if (const auto spread = over_seeds(scenario, key)) figures.push_back(spread->mean);
-      }
+      const std::vector<double> figures = figures_of_group(by, kAll, key);
       if (figures.empty()) {
         text += " - |";
         continue;
