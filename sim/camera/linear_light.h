@@ -4,15 +4,12 @@
 /// 61966-2-1).
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
 namespace lcs::sim {
 
-cv::Mat3f to_linear(const cv::Mat3b& picture);
-
-/// The inverse of `to_linear`, exact for each code. Clips values to [0, 1].
+/// The codes of 8 bits of linear light, exact for the light of each code. Clips values to [0, 1].
 void to_codes(const cv::Mat3f& linear, cv::Mat3b& picture);
 
 /// Linear light of each code of 16 bits; those of 8 bits are multiples of 257.

@@ -11,6 +11,20 @@
 #include "sim/camera/point_spread.h"
 #include "sim/world/world.h"
 
+namespace lcs::sim {
+
+cv::Mat3f to_linear(const cv::Mat3b& picture) {
+  cv::Mat1f light(1, 256);
+  for (int code = 0; code < 256; ++code) {
+    light(code) = light_of_codes16()[static_cast<std::size_t>(257 * code)];
+  }
+  cv::Mat3f linear;
+  cv::LUT(picture, light, linear);
+  return linear;
+}
+
+}  // namespace lcs::sim
+
 namespace lcs::sim::test {
 
 scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int frames) {

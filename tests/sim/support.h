@@ -13,6 +13,13 @@
 #include "sim/simulation.h"
 #include "tests/tools/refusal.h"
 
+namespace lcs::sim {
+
+/// The linear light of a picture's codes: the inverse of `to_codes`.
+cv::Mat3f to_linear(const cv::Mat3b& picture);
+
+}  // namespace lcs::sim
+
 namespace lcs::sim::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
