@@ -104,10 +104,6 @@ void OutputFile::write(std::string_view text) {
   }
 }
 
-void OutputFile::flush() {
-  if (std::fflush(file_.get()) != 0) fail_to("write", path_, errno);
-}
-
 void OutputFile::close() {
   if (std::fclose(file_.release()) != 0) fail_to("write", path_, errno);
 }

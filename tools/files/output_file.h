@@ -58,9 +58,6 @@ class OutputFile {
 
   /// \throws OutputError, for example if the disk is full.
   void write(std::string_view text);
-  /// Passes the buffer to the operating system, so that the data survives if this process is
-  /// killed. \throws OutputError
-  void flush();
   /// Flushes and closes the file. \throws OutputError
   void close();
 
