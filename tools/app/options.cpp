@@ -217,14 +217,14 @@ Options options_of(ReplayRequest& request) {
   all.add("--fast-threshold", "N|auto", &request.fast_threshold,
           "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the compression of "
           "each picture. If not given, auto or the recording's");
-  add_detector(all, request.detector);
+  add_detector(all, request.run.detector);
   all.add("--preset", "NAME", &request.preset,
           "Parameters of the filter: default, or the paper's lab or cars");
   all.add_set(request.sets, "Set a parameter of the filter, as hypotheses.prior=0.05");
-  add_beside(all, request.beside);
-  all.add_out(request.out, "out/<recording>");
-  add_results(all, request.video, request.events);
-  add_threads(all, request.threads);
+  add_beside(all, request.run.beside);
+  all.add_out(request.run.out, "out/<recording>");
+  add_results(all, request.run.video, request.run.events);
+  add_threads(all, request.run.threads);
   return all;
 }
 

@@ -132,14 +132,8 @@ void write_scenario(const ReplayRequest& request, const fs::path& path,
 
 RunMade replay(const ReplayRequest& request, Caller& caller) {
   scenario::Scenario scenario = scenario::load(document_of(request), "");
-  scenario.name = request.out.empty() ? name_of(request.path) : name_of(request.out);
-  RunRequest run;
-  run.out = request.out;
-  run.detector = request.detector;
-  run.beside = request.beside;
-  run.video = request.video;
-  run.events = request.events;
-  run.threads = request.threads;
+  RunRequest run = request.run;
+  scenario.name = name_of(run.out.empty() ? request.path : run.out);
   run.command = arguments_of(request);
   return run_scenario(run, std::move(scenario), caller);
 }

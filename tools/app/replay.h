@@ -32,12 +32,8 @@ struct ReplayRequest {
   std::string fast_threshold = {};                    ///< "": the recording's default
   std::string preset = {};                            ///< "": the recording's default
   std::vector<std::string> sets = {};                 ///< filter settings, "key=value"
-  DetectorChoice detector = {};
-  std::vector<std::string> beside = {};  ///< as in `RunRequest`
-  std::string out = {};                  ///< folder; "" is `out/<name of the recording>`
-  bool video = true;
-  bool events = false;
-  int threads = 1;  ///< as in `RunRequest`
+  /// Its `detector`, `beside`, `video`, `events`, `threads`, and `out`; "" is `out/<recording>`.
+  RunRequest run = {};
 };
 
 Options options_of(ReplayRequest& request);

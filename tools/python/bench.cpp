@@ -366,7 +366,8 @@ Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, 
       },
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
   define(
-      module, {.takes_progress = true}, app::ReplayRequest{.video = false}, dict_by(app::replay),
+      module, {.takes_progress = true}, app::ReplayRequest{.run = {.video = false}},
+      dict_by(app::replay),
       R"(Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
 path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {"focal": 600,
