@@ -14,6 +14,7 @@
 #include <system_error>
 #include <unordered_set>
 
+#include "scenarios/input/assignment.h"
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 
@@ -294,9 +295,11 @@ void apply_set(Value& root, const std::string& assignment) {
   if (equals == std::string::npos || equals == 0) {
     throw Error(where, "this is not of the form key=value; write it as in ego.speed=0.7");
   }
-  const std::vector<std::string> parts = split_path(assignment.substr(0, equals), where);
-  Value value = parse_text(assignment.substr(equals + 1), where);
+  set(root, assignment.substr(0, equals), parse_text(assignment.substr(equals + 1), where), where);
+}
 
+void set(Value& root, std::string_view key, Value value, const Source& where) {
+  const std::vector<std::string> parts = split_path(key, where);
   Value* node = &root;
   std::string path;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/input/document.h"
+#include "scenarios/input/assignment.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
 
@@ -26,68 +26,40 @@ Value list_of(const std::string& flag, const std::string& text) {
   return list;
 }
 
-/// Sets a key of the map: replaces its value or appends a new entry.
-void put(Value& map, const std::string& key, Value value) {
-  const auto found = std::ranges::find(map.entries, key, &input::Entry::key);
-  if (found != map.entries.end()) {
-    found->value = std::move(value);
-  } else {
-    const input::Source where = value.where;
-    map.entries.push_back({key, where, std::move(value)});
-  }
-}
-
-/// As `put`; not for an empty text or map.
-void put_given(Value& map, const std::string& key, Value value) {
-  if (!value.text.empty() || !value.entries.empty()) put(map, key, std::move(value));
-}
-
 /// The type of a key's value; "" for one without an option.
 std::string_view type_of(std::string_view key) {
   const auto found = std::ranges::find(recording_keys(), key, &RecordingKey::key);
   return found == recording_keys().end() ? "" : found->type;
 }
 
-Value recording_of(const ReplayRequest& request) {
-  Value recording(Value::Kind::map, {request.path, 0}), topics(Value::Kind::map, {request.path, 0});
-  put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, request.path});
-  for (const auto& [key, text] : request.recording) {
-    const std::string flag = flag_of(key);
-    if (key == "equidistant") {
-      Value fisheye(Value::Kind::map, {flag, 0});
-      put(fisheye, key, list_of(flag, text));
-      put(recording, "distortion", std::move(fisheye));
-    } else if (key.starts_with(kTopics)) {
-      put(topics, key.substr(kTopics.size()), scalar(flag, text));
-    } else {
-      const bool is_list = type_of(key).find(',') != std::string_view::npos;
-      put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
-    }
-  }
-  put_given(recording, "topics", std::move(topics));
-  return recording;
-}
-
-Value filter_of(const ReplayRequest& request) {
-  Value filter(Value::Kind::map, {"--set", 0});
-  put_given(filter, "preset", scalar("--preset " + request.preset, request.preset));
-  for (const std::string& setting : request.sets) {
-    const auto [key, value] = key_and_value(setting);
-    put(filter, key, scalar("--set " + setting, value));
-  }
-  return filter;
-}
-
 /// The options as a scenario document.
 Value document_of(const ReplayRequest& request) {
-  Value root(Value::Kind::map, {"lcs replay", 0});
-  put(root, "recording", recording_of(request));
-  put_given(root, "ego_motion", scalar("--ego-motion", request.ego_motion));
-  Value corners(Value::Kind::map, {"lcs replay", 0});
-  put_given(corners, "from", scalar("--corners", request.corners));
-  put_given(corners, "threshold", scalar("--fast-threshold", request.fast_threshold));
-  put_given(root, "corners", std::move(corners));
-  put_given(root, "filter", filter_of(request));
+  const input::Source command{"lcs replay", 0};
+  Value root(Value::Kind::map, command);
+  input::set(root, "recording", {Value::Kind::map, {request.path, 0}}, command);
+  input::set(root, "recording.path", {Value::Kind::scalar, command, request.path}, command);
+  for (const auto& [key, text] : request.recording) {
+    const std::string flag = flag_of(key);
+    const bool is_list = type_of(key).find(',') != std::string_view::npos;
+    const Value value = is_list ? list_of(flag, text) : scalar(flag, text);
+    if (key == "equidistant") {
+      input::set(root, "recording.distortion", {Value::Kind::map, {flag, 0}}, {flag, 0});
+      input::set(root, "recording.distortion.equidistant", value, {flag, 0});
+    } else {
+      input::set(root, "recording." + key, value, {flag, 0});
+    }
+  }
+  const auto set_given = [&](const char* key, const std::string& flag, const std::string& text) {
+    if (!text.empty()) input::set(root, key, scalar(flag, text), {flag, 0});
+  };
+  set_given("ego_motion", "--ego-motion", request.ego_motion);
+  set_given("corners.from", "--corners", request.corners);
+  set_given("corners.threshold", "--fast-threshold", request.fast_threshold);
+  set_given("filter.preset", "--preset " + request.preset, request.preset);
+  for (const std::string& setting : request.sets) {
+    const auto [key, value] = key_and_value(setting);
+    input::set(root, "filter." + key, scalar("--set " + setting, value), {"--set " + setting, 0});
+  }
   return root;
 }
 
