@@ -109,10 +109,7 @@ files::Json groups_of(const SuiteResult& suite, const DifferenceOf& differences)
       figures[metric.key] = {{"mean", files::number_or_null(now)}};
       add_change(figures[metric.key], differences, group, metric.key);
     }
-    groups.push_back({{"name", group},
-                      {"label", suite::counted_group(suite, group)},
-                      {"scenarios", suite::count_in(suite, group)},
-                      {"figures", figures}});
+    groups.push_back({{"label", suite::counted_group(suite, group)}, {"figures", figures}});
   }
   return groups;
 }

@@ -105,13 +105,9 @@ bool is_in(const ScenarioResult& scenario, const std::string& group) {
   return group == kAll || std::ranges::find(scenario.groups, group) != scenario.groups.end();
 }
 
-std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
-  return std::ranges::count_if(
-      suite.scenarios, [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
-}
-
 std::string counted_group(const SuiteResult& suite, const std::string& group) {
-  const auto all = count_in(suite, group);
+  const auto all = std::ranges::count_if(
+      suite.scenarios, [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
   const auto with_f1 = std::ssize(figures_of_group(suite, group, scoring::kF1));
   return with_f1 == all ? fmt::format("{} ({})", group, all)
                         : fmt::format("{} ({}, {} with F1)", group, all, with_f1);

@@ -41,8 +41,6 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
                                  std::string_view name);
 
 bool is_in(const ScenarioResult& scenario, const std::string& group);
-/// The number of scenarios in a group.
-std::int64_t count_in(const SuiteResult& suite, const std::string& group);
 /// The group with the numbers of scenarios that its means are over, such as "short (43, 39 with
 /// F1)": those with F1 also have precision and recall.
 std::string counted_group(const SuiteResult& suite, const std::string& group);
