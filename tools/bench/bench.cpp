@@ -95,6 +95,7 @@ recording::RunInfo run_info(const scenario::Scenario& scenario, const sim::Simul
   run.seed = scenario.seed;
   run.world = scenario.world;
   run.origin = simulation.origin();
+  run.camera = intrinsics(simulation.calibration().camera);
   run.objects = simulation.objects();
   return run;
 }

@@ -191,6 +191,7 @@ recording::RunInfo Playback::info() const {
   run.seed = scenario_.seed;
   run.world = scenario_.world;
   run.origin = recorded_.settings.origin;
+  run.camera = bench::intrinsics(camera());
   run.truth = truth_;
   if (truth_ == recording::Truth::all) run.objects = recorded_.truth->objects();
   return run;

@@ -68,27 +68,22 @@ void paint(const Region& region, cv::Mat1b& picture) {
 }  // namespace
 
 void MoverScorer::add(const recording::FrameRecord& frame,
-                      const std::vector<CornerOutcome>& outcomes) {
+                      const std::vector<CornerOutcome>& outcomes,
+                      const ObjectDetections& detections) {
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (truth.moving) moved_.insert(truth.object);
     if (truth.mask.empty()) are_masks_known_ = false;
   }
-  std::set<int> distinct;
-  for (const sim::CornerTruth& truth : frame.corner_truth) {
-    if (truth.label == sim::Label::rebel) distinct.insert(truth.object);
-  }
-  for (const int object : distinct) {
-    ++waits_.try_emplace(object, Wait{frame.t_ns, 0, std::nullopt}).first->second.frames;
-  }
   if (frame.index >= recording::kSightings) {
-    add_boxes(frame);
+    add_boxes(frame, detections);
     if (picture_px_ && are_masks_known_) add_pixels(frame);
     if (!frame.log_odds.empty()) add_corners(frame, outcomes);
   }
   last_ns_ = frame.t_ns;
 }
 
-void MoverScorer::add_boxes(const recording::FrameRecord& frame) {
+void MoverScorer::add_boxes(const recording::FrameRecord& frame,
+                            const ObjectDetections& detections) {
   const std::set<int> eligible = eligible_objects(frame);
   // Squares on a mover that need not be found, as it rests or is hidden, are neither right nor
   // wrong. They are left out first, as MOTChallenge leaves out those on its distractors.
@@ -104,9 +99,9 @@ void MoverScorer::add_boxes(const recording::FrameRecord& frame) {
   worth = (worth.array() < kRightIou).select(0, worth);
   for (const auto& [i, j] : best_pairs(worth)) {
     if (!(worth(i, j) > 0)) continue;
-    Wait* wait = waits_.contains(all[i]->object) ? &waits_.at(all[i]->object) : nullptr;
-    if (wait != nullptr && !wait->boxed_ms) {
-      wait->boxed_ms = 1e-6 * static_cast<double>(frame.t_ns - wait->since_ns);
+    if (const auto distinct = detections.find(all[i]->object); distinct != detections.end()) {
+      const auto since_ns = static_cast<double>(frame.t_ns - distinct->second.first_distinct_ns);
+      boxed_ms_.try_emplace(all[i]->object, 1e-6 * since_ns);
     }
     if (std::ranges::find(wanted, all[i]) == wanted.end()) squares[j] = nullptr;
   }
@@ -188,13 +183,12 @@ void MoverScorer::add_corners(const recording::FrameRecord& frame,
   }
 }
 
-MoverScore MoverScorer::score() const {
+MoverScore MoverScorer::score(const ObjectDetections& detections) const {
   MoverScore score = sums_;
   score.false_tracks = static_cast<int>(false_tracks_.size());
-  for (const auto& [object, wait] : waits_) {
-    if (wait.frames >= recording::kSightings && wait.boxed_ms) {
-      score.latencies_ms.push_back(*wait.boxed_ms);
-    }
+  for (const auto& [object, ms] : boxed_ms_) {
+    const bool is_mover = detections.at(object).distinct_frames >= recording::kSightings;
+    if (is_mover) score.latencies_ms.push_back(ms);
   }
   if (score.boxes > 0) score.tracks = measure_tracks(frames_);
   const auto add = [](std::vector<Found>& curve, std::int64_t right, std::int64_t wrong) {

@@ -11,6 +11,7 @@
 
 #include "tools/recording/recording.h"
 #include "tools/scoring/measures.h"
+#include "tools/scoring/score_rebels.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::scoring {
@@ -40,22 +41,19 @@ class MoverScorer {
   /// \param picture_px absent: unknown.
   explicit MoverScorer(std::optional<cv::Size> picture_px) : picture_px_(picture_px) {}
 
-  /// \param outcomes of the frame's corners.
-  void add(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
-  MoverScore score() const;
+  /// \param outcomes of the frame's corners. \param detections up to this frame.
+  void add(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
+           const ObjectDetections& detections);
+  /// \param detections of all frames.
+  MoverScore score(const ObjectDetections& detections) const;
 
  private:
   struct Box {
     double odds;
     bool right;
   };
-  struct Wait {
-    std::int64_t since_ns;
-    int frames = 0;  ///< with a rebel corner
-    std::optional<double> boxed_ms;
-  };
 
-  void add_boxes(const recording::FrameRecord& frame);
+  void add_boxes(const recording::FrameRecord& frame, const ObjectDetections& detections);
   void add_pixels(const recording::FrameRecord& frame);
   void add_corners(const recording::FrameRecord& frame, const std::vector<CornerOutcome>& outcomes);
   void rank(const recording::FrameRecord& frame, const std::vector<const Square*>& squares,
@@ -63,9 +61,9 @@ class MoverScorer {
 
   std::optional<cv::Size> picture_px_;
   MoverScore sums_;
-  std::set<int> moved_;         ///< objects that moved so far
-  std::map<int, Wait> waits_;   ///< by object, from its first rebel corner on
-  std::map<int, int> objects_;  ///< numbers from 0
+  std::set<int> moved_;             ///< objects that moved so far
+  std::map<int, double> boxed_ms_;  ///< by object: time from its first rebel corner to its box
+  std::map<int, int> objects_;      ///< numbers from 0
   std::map<Id, int> tracks_;
   std::vector<FrameBoxes> frames_;
   std::map<float, Found, std::greater<>> corners_;  ///< by log odds

@@ -79,7 +79,7 @@ FrameScore Scorer::add(const recording::FrameRecord& frame) {
   require_pairs(frame);
   FrameScore score{state_->rebels.add(frame), state_->rebels.last().overall};
   state_->squares.add(frame);
-  state_->movers.add(frame, score.outcomes);
+  state_->movers.add(frame, score.outcomes, state_->rebels.detections());
   state_->warnings.add(frame);
   Scores& scores = state_->scores;
   scores.labels.add(frame);
@@ -106,7 +106,7 @@ Metrics Scorer::metrics(const std::optional<sim::Warnings>& world) const {
   scores.corners = state_->rebels.corners();
   scores.objects = state_->rebels.objects();
   scores.squares = state_->squares.score();
-  scores.movers = state_->movers.score();
+  scores.movers = state_->movers.score(detections());
   scores.warnings = warned(world);
   Metrics figures;
   for (const Metric& metric : scoring::metrics()) {
