@@ -67,7 +67,9 @@ std::string scores(const scoring::Metrics& metrics) {
   }
   text += line("squares", metrics, true,
                {"square.precision_50", "square.recall_50", "square.recall_50_movers",
-                "square.recall_50_static", "square.mean_iou", "square.mask_mean_iou"});
+                "square.recall_50_static", "square.mean_iou"});
+  text += line("movers", metrics, true,
+               {"mover.detection_rate", "mover.hota", "mover.j_and_f", "mover.latency_ms_median"});
   return text;
 }
 

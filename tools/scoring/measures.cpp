@@ -30,8 +30,8 @@ Counts count(std::span<const FrameBoxes> frames) {
   }
   Counts counts{Eigen::VectorXd::Zero(objects), Eigen::VectorXd::Zero(tracks)};
   for (const FrameBoxes& frame : frames) {
-    for (const int object : frame.objects) ++counts.objects[object];
-    for (const int track : frame.tracks) ++counts.tracks[track];
+    counts.objects(frame.objects).array() += 1;
+    counts.tracks(frame.tracks).array() += 1;
   }
   return counts;
 }
@@ -40,15 +40,10 @@ Counts count(std::span<const FrameBoxes> frames) {
 Eigen::MatrixXd alignment(std::span<const FrameBoxes> frames, const Counts& counts) {
   Eigen::MatrixXd common = Eigen::MatrixXd::Zero(counts.objects.size(), counts.tracks.size());
   for (const FrameBoxes& frame : frames) {
-    const Eigen::VectorXd of_objects = frame.overlap.rowwise().sum();
-    const Eigen::RowVectorXd of_tracks = frame.overlap.colwise().sum();
-    for (Eigen::Index i = 0; i < frame.overlap.rows(); ++i) {
-      for (Eigen::Index j = 0; j < frame.overlap.cols(); ++j) {
-        const double overlap = frame.overlap(i, j);
-        const double all = of_objects[i] + of_tracks[j] - overlap;
-        if (all > kRounding) common(frame.objects[i], frame.tracks[j]) += overlap / all;
-      }
-    }
+    const Eigen::ArrayXXd overlap = frame.overlap;
+    const Eigen::ArrayXXd all = overlap.rowwise().sum().replicate(1, overlap.cols()) +
+                                overlap.colwise().sum().replicate(overlap.rows(), 1) - overlap;
+    common(frame.objects, frame.tracks).array() += (all > kRounding).select(overlap / all, 0);
   }
   const Eigen::MatrixXd all = counts.objects.replicate(1, counts.tracks.size()) +
                               counts.tracks.transpose().replicate(counts.objects.size(), 1);
@@ -60,12 +55,7 @@ void measure_hota(std::span<const FrameBoxes> frames, const Counts& counts,
   const Eigen::MatrixXd aligned = alignment(frames, counts);
   std::vector<Match> matches;
   for (const FrameBoxes& frame : frames) {
-    Eigen::MatrixXd worth = frame.overlap;
-    for (Eigen::Index i = 0; i < worth.rows(); ++i) {
-      for (Eigen::Index j = 0; j < worth.cols(); ++j) {
-        worth(i, j) *= aligned(frame.objects[i], frame.tracks[j]);
-      }
-    }
+    const Eigen::MatrixXd worth = aligned(frame.objects, frame.tracks).cwiseProduct(frame.overlap);
     for (const auto& [i, j] : best_pairs(worth)) {
       matches.push_back({frame.objects[i], frame.tracks[j], frame.overlap(i, j)});
     }
@@ -131,11 +121,8 @@ void measure_idf1(std::span<const FrameBoxes> frames, const Counts& counts,
                   TrackMeasures& measures) {
   Eigen::MatrixXd together = Eigen::MatrixXd::Zero(counts.objects.size(), counts.tracks.size());
   for (const FrameBoxes& frame : frames) {
-    for (Eigen::Index i = 0; i < frame.overlap.rows(); ++i) {
-      for (Eigen::Index j = 0; j < frame.overlap.cols(); ++j) {
-        if (frame.overlap(i, j) >= kMatch) ++together(frame.objects[i], frame.tracks[j]);
-      }
-    }
+    together(frame.objects, frame.tracks).array() +=
+        (frame.overlap.array() >= kMatch).cast<double>();
   }
   double right = 0;
   for (const auto& [object, track] : best_pairs(together)) right += together(object, track);

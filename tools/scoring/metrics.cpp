@@ -149,19 +149,9 @@ std::vector<Metric> rebel_metrics() {
 
 // ---- Squares
 
-SquareScore::Masks masks_of(const Scores& s) {
-  return s.squares.masks.value_or(SquareScore::Masks{});
-}
-
-Figure mover_recall(const Scores& s, Doing doing) {
-  return s.squares.movers_50_by_doing[static_cast<std::size_t>(doing)].recall();
-}
-
-/// \param ious with the members of `SquareScore` or of its `Masks`.
-template <class Ious>
-Figure mean_iou(const Ious& ious) {
-  std::vector<double> all = ious.movers_iou;
-  all.insert(all.end(), ious.static_iou.begin(), ious.static_iou.end());
+Figure mean_iou(const SquareScore& squares) {
+  std::vector<double> all = squares.movers_iou;
+  all.insert(all.end(), squares.static_iou.begin(), squares.static_iou.end());
   return mean(all);
 }
 
@@ -182,14 +172,6 @@ std::vector<Metric> square_metrics() {
       {"square.recall_50_movers", [](auto& s) { return s.squares.movers_50.recall(); }, kShare,
        "boxed movers", "square.recall_50 over objects that move at any time in the run",
        kInDetectors},
-      {"square.recall_50_visibly_moving",
-       [](auto& s) { return mover_recall(s, Doing::visibly_moving); }, kShare, "visibly moving",
-       "square.recall_50_movers over the frames in which half or more of the object's moving "
-       "corners are rebels"},
-      {"square.recall_50_slow", [](auto& s) { return mover_recall(s, Doing::slow); }, kShare,
-       "slow", "square.recall_50_movers over the frames in which the object moves by less"},
-      {"square.recall_50_resting", [](auto& s) { return mover_recall(s, Doing::resting); }, kShare,
-       "resting", "square.recall_50_movers over the frames in which the object does not move"},
       {"square.recall_50_static", [](auto& s) { return s.squares.static_50.recall(); }, kShare,
        "boxed static", "square.recall_50 over objects that never move"},
       {"square.mean_iou", [](auto& s) { return mean_iou(s.squares); }, kShare, "IoU",
@@ -204,16 +186,6 @@ std::vector<Metric> square_metrics() {
        },
        lower("", 0.9, 0), "",
        "times that an object's square at 0.5 has another id than its last one"},
-      {"square.mask_recall_50", [](auto& s) { return masks_of(s).at_50.recall(); }, kShare, "",
-       "square.recall_50 by the IoU of masks in place of boxes"},
-      {"square.mask_precision_50", [](auto& s) { return masks_of(s).at_50.precision(); }, kShare,
-       "", "square.precision_50 by the IoU of masks in place of boxes"},
-      {"square.mask_mean_iou", [](auto& s) { return mean_iou(masks_of(s)); }, kShare, "mask IoU",
-       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5", kInReport},
-      {"square.mask_mean_iou_movers", [](auto& s) { return mean(masks_of(s).movers_iou); }, kShare,
-       "", "square.mask_mean_iou over objects that move at any time in the run"},
-      {"square.mask_mean_iou_static", [](auto& s) { return mean(masks_of(s).static_iou); }, kShare,
-       "", "square.mask_mean_iou over objects that never move"},
       {"truth.boxes", [](auto& s) { return s.squares.at_50.boxes; }, kCount, "",
        "eligible boxes, over all frames"},
       {"truth.objects", [](auto& s) { return static_cast<double>(s.objects_seen.size()); }, kCount,

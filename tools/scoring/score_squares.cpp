@@ -35,19 +35,6 @@ constexpr int kMinCorners = 4;
 constexpr double kMinVisibleFraction = 0.5;
 ///@}
 
-Doing doing_of(int object, const recording::FrameRecord& frame) {
-  if (!std::ranges::find(frame.object_truth, object, &sim::ObjectTruth::object)->moving) {
-    return Doing::resting;
-  }
-  int visibly = 0, all = 0;
-  for (const sim::CornerTruth& truth : frame.corner_truth) {
-    if (truth.object != object) continue;
-    visibly += truth.label == sim::Label::rebel;
-    all += truth.label == sim::Label::rebel || truth.label == sim::Label::indistinct;
-  }
-  return all > 0 && 2 * visibly >= all ? Doing::visibly_moving : Doing::slow;
-}
-
 /// The overlaps of the squares and objects of one frame, before any threshold.
 struct FrameSquares {
   std::set<int> eligible;         ///< objects
@@ -55,16 +42,15 @@ struct FrameSquares {
   std::vector<BoxPair> best_box;  ///< each square's best among all boxes; object 0: no overlap
 };
 
-/// \param iou_of returns the IoU of an object's truth and a square.
-template <typename Overlap>
-FrameSquares compare(const recording::FrameRecord& frame, Overlap&& iou_of) {
+FrameSquares compare_boxes(const recording::FrameRecord& frame) {
   FrameSquares result;
   result.eligible = eligible_objects(frame);
   std::vector<BoxPair> candidates;
   for (const Square& square : frame.layers.squares) {
     BoxPair best{0, 0, square.id};
     for (const sim::ObjectTruth& truth : frame.object_truth) {
-      const double iou = iou_of(truth, square);
+      const double iou =
+          recording::intersection_over_union(recording::box_of(truth), recording::box_of(square));
       const bool eligible = result.eligible.contains(truth.object);
       if (iou > 0 && eligible) candidates.push_back({iou, truth.object, square.id});
       if (iou > best.iou || (iou == best.iou && iou > 0 && eligible)) {
@@ -77,32 +63,6 @@ FrameSquares compare(const recording::FrameRecord& frame, Overlap&& iou_of) {
   result.pairs = one_to_one(std::move(candidates));
   return result;
 }
-
-FrameSquares compare_boxes(const recording::FrameRecord& frame) {
-  return compare(frame, [](const sim::ObjectTruth& truth, const Square& square) {
-    return recording::intersection_over_union(recording::box_of(truth), recording::box_of(square));
-  });
-}
-
-/// The pixels that the objects and squares of a frame cover.
-class FrameRegions {
- public:
-  explicit FrameRegions(const recording::FrameRecord& frame) {
-    for (const sim::ObjectTruth& truth : frame.object_truth) {
-      objects_[truth.object] = region_of(sim::mask_of(truth));
-    }
-    for (const Square& square : frame.layers.squares) {
-      squares_[square.id] = region_of(square, frame.masks);
-    }
-  }
-  double iou(int object, Id square) const {
-    return intersection_over_union(objects_.at(object), squares_.at(square));
-  }
-
- private:
-  std::map<int, Region> objects_;
-  std::map<Id, Region> squares_;
-};
 
 SquareOutcomes outcomes_of(const FrameSquares& squares, double threshold) {
   SquareOutcomes outcomes{squares.eligible, {}, {}};
@@ -195,19 +155,6 @@ Region region_of(const Square& square, const recording::SquareMasks& masks) {
                                   : region_of(recording::box_of(square));
 }
 
-double intersection_over_union(const Region& a, const Region& b) {
-  std::int64_t common = 0;
-  for (auto i = a.stretches.begin(), j = b.stretches.begin();
-       i != a.stretches.end() && j != b.stretches.end();) {
-    if (i->column == j->column) {
-      common += std::max(0, std::min(i->bottom, j->bottom) - std::max(i->top, j->top));
-    }
-    ++(std::tuple(i->column, i->bottom) < std::tuple(j->column, j->bottom) ? i : j);
-  }
-  const std::int64_t all = a.pixels + b.pixels - common;
-  return all > 0 ? static_cast<double>(common) / static_cast<double>(all) : 0;
-}
-
 SquareOutcomes square_outcomes(const recording::FrameRecord& frame) {
   return outcomes_of(compare_boxes(frame), kRightIou);
 }
@@ -231,30 +178,16 @@ std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
 void SquareScorer::add(const recording::FrameRecord& frame) {
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (truth.moving) movers_.insert(truth.object);
-    if (truth.mask.empty()) are_masks_known_ = false;
   }
   if (frame.index < recording::kSightings) return;
   const FrameSquares squares = compare_boxes(frame);
   add_to(sums_.at_30, outcomes_of(squares, 0.3));
   add_to(sums_.at_50, outcomes_of(squares, kRightIou));
   add_to(sums_.at_70, outcomes_of(squares, 0.7));
-  std::map<int, Doing> doing;
-  for (const int object : squares.eligible) {
-    doing[object] = doing_of(object, frame);
-    ++boxes_[object][static_cast<std::size_t>(doing[object])];
-  }
-  std::optional<FrameRegions> regions;
-  if (are_masks_known_) {
-    regions.emplace(frame);
-    const auto by_mask = [&](const sim::ObjectTruth& truth, const Square& square) {
-      return regions->iou(truth.object, square.id);
-    };
-    add_to(masks_.at_50, outcomes_of(compare(frame, by_mask), kRightIou));
-  }
+  for (const int object : squares.eligible) ++boxes_[object];
   for (const BoxPair& pair : squares.pairs) {
     if (pair.iou < kRightIou) continue;
-    pairs_.push_back({pair.box, doing.at(pair.box), pair.iou,
-                      regions ? regions->iou(pair.box, pair.square) : 0});
+    pairs_.push_back({pair.box, pair.iou});
     const auto [last, first_time] = last_square_.try_emplace(pair.box, pair.square);
     sums_.identity_switches += last->second != pair.square;
     last->second = pair.square;
@@ -263,21 +196,13 @@ void SquareScorer::add(const recording::FrameRecord& frame) {
 
 SquareScore SquareScorer::score() const {
   SquareScore score = sums_;
-  if (are_masks_known_) score.masks = masks_;
   for (const auto& [object, boxes] : boxes_) {
-    const bool mover = movers_.contains(object);
-    for (std::size_t doing = 0; doing < kDoings; ++doing) {
-      (mover ? score.movers_50 : score.static_50).boxes += boxes[doing];
-      if (mover) score.movers_50_by_doing[doing].boxes += boxes[doing];
-    }
+    (movers_.contains(object) ? score.movers_50 : score.static_50).boxes += boxes;
   }
   for (const Pair& pair : pairs_) {
     const bool mover = movers_.contains(pair.object);
     ++(mover ? score.movers_50 : score.static_50).matched;
-    if (mover) ++score.movers_50_by_doing[static_cast<std::size_t>(pair.doing)].matched;
     (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
-    if (!score.masks) continue;
-    (mover ? score.masks->movers_iou : score.masks->static_iou).push_back(pair.mask_iou);
   }
   return score;
 }

@@ -1,6 +1,5 @@
 /// \file
-/// Scores how well squares cover the visible objects: by boxes, and by the pixels that an object or
-/// a square covers.
+/// Scores how well squares cover the visible objects, by boxes; and the pixels that they cover.
 #pragma once
 
 #include <array>
@@ -52,16 +51,6 @@ struct SquareOutcomes {
 };
 SquareOutcomes square_outcomes(const recording::FrameRecord& frame);
 
-/// What an object does in a frame.
-enum class Doing : std::uint8_t {
-  visibly_moving,  ///< moves, and half or more of its corners by 1 px or more (label `rebel`)
-  slow,            ///< moves by less
-  resting,
-};
-inline constexpr std::size_t kDoings = 3;
-template <typename T>
-using ByDoing = std::array<T, kDoings>;
-
 struct SquareScore {
   SquareCounts at_30, at_50, at_70;
   /// \name At 0.5, split by whether the object moves at any time in the run.
@@ -69,18 +58,10 @@ struct SquareScore {
   SquareCounts movers_50, static_50;           ///< `squares` is 0: wrong squares have no object
   std::vector<double> movers_iou, static_iou;  ///< of the matched pairs
   ///@}
-  ByDoing<SquareCounts> movers_50_by_doing;  ///< `movers_50`, split by what they do in the frame
-  int identity_switches = 0;                 ///< at an IoU of 0.5
-  /// Scores of the covered pixels instead of the boxes.
-  struct Masks {
-    SquareCounts at_50;
-    /// IoU of the pairs whose boxes match at 0.5.
-    std::vector<double> movers_iou, static_iou;
-  };
-  std::optional<Masks> masks;  ///< absent unless the masks of all objects are known
+  int identity_switches = 0;  ///< at an IoU of 0.5
 };
 
-/// Scores a run frame by frame, in order. Keeps 32 bytes for each matched pair: the objects that
+/// Scores a run frame by frame, in order. Keeps 16 bytes for each matched pair: the objects that
 /// move at any time in the run are known at its end only.
 class SquareScorer {
  public:
@@ -90,17 +71,14 @@ class SquareScorer {
  private:
   struct Pair {
     int object;
-    Doing doing;
-    double iou, mask_iou;
+    double iou;
   };
 
   SquareScore sums_;  ///< without the split by movers
   std::set<int> movers_;
-  std::map<int, ByDoing<int>> boxes_;  ///< eligible ones, by object
-  std::map<int, Id> last_square_;      ///< matched last, by object
-  std::vector<Pair> pairs_;            ///< at `kRightIou`
-  SquareScore::Masks masks_;
-  bool are_masks_known_ = true;
+  std::map<int, int> boxes_;       ///< eligible ones, by object
+  std::map<int, Id> last_square_;  ///< matched last, by object
+  std::vector<Pair> pairs_;        ///< at `kRightIou`
 };
 
 /// Pixels of one column, [top, bottom).
@@ -125,7 +103,5 @@ Region region_of(const recording::Box& box);
 
 /// The region of a square: its mask, otherwise its outline, otherwise its box.
 Region region_of(const Square& square, const recording::SquareMasks& masks);
-
-double intersection_over_union(const Region& a, const Region& b);
 
 }  // namespace lcs::scoring
