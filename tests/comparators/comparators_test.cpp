@@ -38,7 +38,7 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
 TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
   for (const DetectorKind& each : detectors()) EXPECT_EQ(&detector(each.name), &each);
   EXPECT_EQ(test::refusal_of<std::invalid_argument>([] { detector("yolo"); }),
-            "no detector is called 'yolo'; there are lcs, klt, homography, dis");
+            "no detector is called 'yolo'; there are lcs, klt, dis");
 }
 
 TEST(DetectorSpec, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
@@ -84,7 +84,7 @@ TEST(DetectorSpec, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
 }
 
 class EachDetector : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Names, EachDetector, testing::Values("lcs", "klt", "homography", "dis"),
+INSTANTIATE_TEST_SUITE_P(Names, EachDetector, testing::Values("lcs", "klt", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(EachDetector, SaysTheSameToTheLastBitInTwoRuns) {
@@ -258,8 +258,7 @@ class DetectorTest : public testing::TestWithParam<const char*> {
  protected:
   std::unique_ptr<bench::Detector> make() const {
     if (GetParam() == std::string("klt")) return std::make_unique<KltDetector>(kIntrinsics);
-    if (GetParam() == std::string("dis")) return std::make_unique<DisDetector>(kIntrinsics);
-    return std::make_unique<HomographyDetector>();
+    return std::make_unique<DisDetector>(kIntrinsics);
   }
   static std::vector<Eigen::Vector2f> corners_of(const cv::Mat1b& grey) {
     return FastDetector(20).detect(grey);
@@ -275,7 +274,7 @@ class DetectorTest : public testing::TestWithParam<const char*> {
     return static_cast<double>(count) / static_cast<double>(verdicts.size());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Names, DetectorTest, testing::Values("klt", "homography", "dis"),
+INSTANTIATE_TEST_SUITE_P(Names, DetectorTest, testing::Values("klt", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(DetectorTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
@@ -505,24 +504,6 @@ TEST(Dis, TakesTheSmallestPictures) {
   }
 }
 
-TEST(Homography, OfTooFewCornersTellsNothing) {
-  HomographyDetector detector;
-  cv::Mat1b before = view({});
-  const auto corners = FastDetector(20).detect(before);
-  std::vector<Eigen::Vector2f> few;
-  for (const Eigen::Vector2f& px : corners) {
-    const cv::Rect middle(60, 60, kWidth - 120, kHeight - 120);
-    if (middle.contains(pixel(px)) && few.size() < 7) few.push_back(px);
-  }
-  cv::Mat1b now(before.size(), uchar{0});
-  before.rowRange(0, kHeight - 4).copyTo(now.rowRange(4, kHeight));
-  std::vector<Eigen::Vector2f> moved = few;
-  for (Eigen::Vector2f& px : moved) px.y() += 4;
-  detector.step({cv::Mat3b(), before, few, {}});
-  const FrameResult& said = detector.step({cv::Mat3b(), now, moved, {}});
-  EXPECT_EQ(said.verdicts, std::vector<Verdict>(7, Verdict::normal));
-}
-
 TEST(Detectors, RefuseParametersOutOfTheirRange) {
   EXPECT_THROW(BackwardFlow({.window_px = 12}), std::invalid_argument);
   EXPECT_THROW(BackwardFlow({.levels = -1}), std::invalid_argument);
@@ -532,9 +513,6 @@ TEST(Detectors, RefuseParametersOutOfTheirRange) {
   DisParameters dis;
   dis.baseline_s = std::nan("");
   EXPECT_THROW(DisDetector(kIntrinsics, dis), std::invalid_argument);
-  HomographyParameters homography;
-  homography.least_corners = 3;
-  EXPECT_THROW(HomographyDetector{homography}, std::invalid_argument);
 }
 
 // ---- Flow
@@ -640,14 +618,12 @@ TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {
 
 // ---- Performance
 
-/// Measured on the whole scenario: klt 0.85, homography 0.85, less a margin for another OpenCV.
-TEST(Yardstick, OnTheCrossingBothAreWorthComparingWith) {
+/// Measured on the whole scenario: 0.85, less a margin for another OpenCV.
+TEST(Yardstick, OnTheCrossingKltIsWorthComparingWith) {
   const scoring::Metrics klt = scoring::score(run("klt", "crossing.yaml"));
   EXPECT_GT(scoring::value(klt, "rebel.f1").value(), 0.81);
   EXPECT_GT(scoring::value(klt, "square.recall_50_movers").value(), 0.8);
   EXPECT_LT(scoring::value(klt, "rebel.false_objects_per_100_frames").value(), 5);
-  const scoring::Metrics homography = scoring::score(run("homography", "crossing.yaml"));
-  EXPECT_GT(scoring::value(homography, "rebel.f1").value(), 0.77);
 }
 
 }  // namespace

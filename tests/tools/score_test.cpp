@@ -37,7 +37,7 @@ class Score : public testing::Test {
 };
 
 class ScoreOfDetector : public Score, public testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Names, ScoreOfDetector, testing::Values("lcs", "klt", "homography", "dis"),
+INSTANTIATE_TEST_SUITE_P(Names, ScoreOfDetector, testing::Values("lcs", "klt", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(ScoreOfDetector, GivesTheRunsOwnFiguresToTheLastBitTimesIncluded) {

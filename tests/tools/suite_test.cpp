@@ -248,13 +248,13 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   scenario("near",
            "criteria:\n  - {metric: dimension.mean, min: 1}\n"
            "  - {metric: frames, max: 7, detector: klt}\n"
-           "  - {metric: frames, max: 7, detector: dis}\n",
+           "  - {metric: frames, max: 7, detector: 'lcs:cars'}\n",
            8);
-  const CommandResult command = run({"--seeds", "2", "--beside", "klt", "--beside", "homography"});
+  const CommandResult command = run({"--seeds", "2", "--beside", "klt", "--beside", "dis"});
   EXPECT_EQ(command.exit_code, 1) << command.err;
   EXPECT_NE(command.err.find("klt: failed: near seed 2: "), std::string::npos) << command.err;
   EXPECT_NE(command.err.find("frames of klt is 8, must be at most 7"), std::string::npos);
-  const std::string not_asked = "not asked: criteria of dis (scenarios/near.yaml:9)";
+  const std::string not_asked = "not asked: criteria of lcs:cars (scenarios/near.yaml:9)";
   EXPECT_NE(command.err.find(not_asked), std::string::npos) << command.err;
   EXPECT_EQ(command.err.find(not_asked), command.err.rfind(not_asked)) << "told once";
   tinyxml2::XMLDocument junit;
@@ -267,7 +267,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
                                                   "run.json", "beside", "standing.md"}));
   EXPECT_NE(command.err.find("[run 2/2] near seed "), std::string::npos) << command.err;
   EXPECT_EQ(result().detector, "lcs");
-  for (const std::string name : {"klt", "homography"}) {
+  for (const std::string name : {"klt", "dis"}) {
     const fs::path beside = fs::path("out") / "suite" / "beside" / name;
     const SuiteResult other = result(beside);
     EXPECT_EQ(other.detector, name);

@@ -55,16 +55,10 @@ Made make_of_camera(const Intrinsics& camera, const scenario::Scenario&) {
   return std::make_unique<OfCamera>(camera);
 }
 
-Made make_homography(const Intrinsics&, const scenario::Scenario&) {
-  return std::make_unique<HomographyDetector>();
-}
-
-constexpr std::array<DetectorKind, 4> kDetectors{{
+constexpr std::array<DetectorKind, 3> kDetectors{{
     {"lcs", "the Line-Circle-Square filter", true, false, make_lcs},
     {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, true,
      make_of_camera<KltDetector>},
-    {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false, true,
-     make_homography},
     {"dis", "dense flow, and distance to the epipolar segment", false, true,
      make_of_camera<DisDetector>},
 }};

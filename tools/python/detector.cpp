@@ -67,7 +67,7 @@ class Detector {
 void bind_detector(py::module_& module) {
   class_of<Detector>(
       module, "Detector",
-      R"(A detector of the bench: lcs, lcs:lab, lcs:cars, klt, homography, dis (tools/comparators/README.md), or a
+      R"(A detector of the bench: lcs, lcs:lab, lcs:cars, klt, dis (tools/comparators/README.md), or a
 program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs run.)")
       .def(py::init([](const Scenario& scenario, const std::string& name,
                        const std::string& command, double timeout) {

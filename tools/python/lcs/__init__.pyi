@@ -95,7 +95,7 @@ class Detections:
         """
 class Detector:
     """
-    A detector of the bench: lcs, lcs:lab, lcs:cars, klt, homography, dis (tools/comparators/README.md), or a
+    A detector of the bench: lcs, lcs:lab, lcs:cars, klt, dis (tools/comparators/README.md), or a
     program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs run.
     """
     def __init__(self, scenario: Scenario, name: str = '', *, command: str = '', timeout: float = 30.0) -> None:
