@@ -471,6 +471,20 @@ TEST_F(OwnDetector, TheExampleHasTheSameFiguresByItsProgramAndByFilesOverASuite)
   EXPECT_GT(scoring::value(live_metrics, "rebel.f1"), 0.3);
 }
 
+TEST_F(OwnDetector, EachRivalFromAPaperFindsTheCrossingBox) {
+  const fs::path folder = fs::path(LCS_EXAMPLE_DETECTOR).parent_path();
+  for (const std::string rival : {"foels", "geoimo"}) {
+    const CommandResult command =
+        lcs({"run", "scenarios/near.yaml", "--out", rival, "--no-video", "--quiet", "--detector",
+             rival, "--detector-command", python() + " " + (folder / (rival + ".py")).string()});
+    ASSERT_EQ(command.exit_code, 0) << command.err;
+    const auto metrics = scoring::read_metrics(folder_.path() / rival / "metrics.json");
+    EXPECT_GT(scoring::value(metrics, "rebel.recall"), 0.6) << rival;
+    EXPECT_GT(scoring::value(metrics, "rebel.precision"), 0.15) << rival;
+    EXPECT_GT(scoring::value(metrics, "square.recall_50_movers"), 0.2) << rival;
+  }
+}
+
 TEST_F(OwnDetector, FilesOfDetectionsThatAreMissingAreAllNamedBeforeAnythingRuns) {
   scenario("far");
   ASSERT_EQ(lcs({"suite", "scenarios", "--seeds", "2", "--out", "frames", "--quiet"}).exit_code, 0);
