@@ -4,9 +4,9 @@
     lcs run scenarios/crossing.yaml --detector foels --detector-command 'python3 tools/comparators/foels.py'
 
 After Ogawa, An and Yamashita, "Moving Object Detection from Moving Camera Using Focus of Expansion Likelihood and
-Segmentation" (arXiv 2507.13628). Theirs: the focus by RANSAC over pairs of dense flow vectors, with inliers by angle;
-a camera that stands if few pixels flow; the probability that a pixel moves, from the flow's angle to the focus and
-the logarithm of its length; segments that move as a whole. Ours, as nothing here is learned:
+Segmentation" (arXiv 2507.13628), from its abstract, its authors' page and quoted equations. Theirs: the focus by
+RANSAC over pairs of dense flow vectors, with inliers by angle; a camera that stands if few pixels flow; probability
+to move by the flow's angle to the focus and the logarithm of its length; segments that move as a whole. Ours:
   * DIS in place of a network's flow, to an earlier picture that the told rotation turns;
   * superpixels in place of a network's panoptic segments: there are no classes, so no prior of a class, and the focus
     comes from the whole picture; superpixels that touch are an object;
