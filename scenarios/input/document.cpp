@@ -14,7 +14,6 @@
 #include <system_error>
 #include <unordered_set>
 
-#include "scenarios/input/assignment.h"
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 

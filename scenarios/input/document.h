@@ -68,5 +68,7 @@ std::map<std::string, std::string> flattened(const Value& root);
 /// value) removes one value of the tree. Indices into lists count from 0. All text after "filter."
 /// is one key, including dots. \throws Error citing the assignment.
 void apply_set(Value& root, const std::string& assignment);
+/// Sets the value of a key as `apply_set` does; null removes it. \throws Error citing `where`.
+void set(Value& root, std::string_view key, Value value, const Source& where);
 
 }  // namespace lcs::input

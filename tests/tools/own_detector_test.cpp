@@ -471,9 +471,9 @@ TEST_F(OwnDetector, TheExampleHasTheSameFiguresByItsProgramAndByFilesOverASuite)
   EXPECT_GT(scoring::value(live_metrics, "rebel.f1"), 0.3);
 }
 
-TEST_F(OwnDetector, EachRivalFromAPaperFindsTheCrossingBox) {
-  const fs::path folder = fs::path(LCS_EXAMPLE_DETECTOR).parent_path();
-  for (const std::string rival : {"foels", "geoimo"}) {
+TEST_F(OwnDetector, EachRivalFindsTheCrossingBox) {
+  const fs::path folder = LCS_RIVALS;
+  for (const std::string rival : {"homography", "foels", "geoimo"}) {
     const CommandResult command =
         lcs({"run", "scenarios/near.yaml", "--out", rival, "--no-video", "--quiet", "--detector",
              rival, "--detector-command", python() + " " + (folder / (rival + ".py")).string()});

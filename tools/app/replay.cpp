@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/input/assignment.h"
+#include "scenarios/input/document.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
 

@@ -1,4 +1,4 @@
-"""Shared by foels.py and geoimo.py: reads frames, keeps the earlier picture, writes answers (PROTOCOL.md).
+"""Shared by the rivals: reads frames, keeps the earlier picture, writes answers (PROTOCOL.md).
 
 Places and flow are px, x first; a box is [left, top, width, height], px.
 """

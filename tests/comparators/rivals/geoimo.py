@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """GeoIMO as a detector: a box moves by itself if its flow is not the camera's at its centre.
 
-    lcs run scenarios/crossing.yaml --detector geoimo --detector-command 'python3 tools/comparators/geoimo.py'
+    lcs run scenarios/crossing.yaml --detector geoimo --detector-command 'python3 tests/comparators/rivals/geoimo.py'
 
 After Gogebakan and others, "GeoIMO: Geometry-Driven Independent Motion Classification for Event Cameras" (arXiv
 2606.24499), from its abstract and the description in its repository. Theirs: the camera's flow is s (p - focus), with

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """FoELS as a detector: what does not flow away from the focus of expansion moves by itself.
 
-    lcs run scenarios/crossing.yaml --detector foels --detector-command 'python3 tools/comparators/foels.py'
+    lcs run scenarios/crossing.yaml --detector foels --detector-command 'python3 tests/comparators/rivals/foels.py'
 
 After Ogawa, An and Yamashita, "Moving Object Detection from Moving Camera Using Focus of Expansion Likelihood and
 Segmentation" (arXiv 2507.13628), from its abstract, its authors' page and quoted equations. Theirs: the focus by

@@ -3,7 +3,7 @@
 
     lcs suite --worlds test --count 70 --beside klt --keep all --out out/worlds
     lcs suite scenarios/sweeps/turning.yaml scenarios/sweeps/told_motion.yaml --beside klt --out out/sweeps
-    python3 tools/comparators/curves.py out/curves.png out/worlds out/sweeps
+    python3 tests/docs/curves.py out/curves.png out/worlds out/sweeps
 
 Needs python3-matplotlib. Corners of all worlds count together, after each run's warm-up, as SCORING.md has
 them: precision by true and false rebels, recall by those that it counts.
