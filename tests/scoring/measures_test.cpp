@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -228,6 +229,29 @@ TEST(Movers, AreRankedByTheLogOddsOfTheirCorners) {
   EXPECT_DOUBLE_EQ(get(wrong, "mover.average_precision"), 0.5);  // each false box comes before
   // The six fixed corners come before the rebels that recall counts, four in each of six frames.
   EXPECT_NEAR(get(wrong, "rebel.average_precision"), 24.0 / 30, 1e-12);
+}
+
+/// A square covers the truth except a corner of 19 + .. + 1 pixels, unless it has a mask of its
+/// own.
+TEST(Movers, AreJudgedByThePixelsOfOutlinesOrMasks) {
+  const auto outlined = [](test::FrameMaker& frame) {
+    frame.record().object_truth.clear();
+    frame.object(1, {100, 100, 140, 140}, true).full().square(9, {100, 100, 140, 140});
+    Outline& outline = frame.record().layers.squares.back().outline;
+    const std::array<Vec2, 5> rim{Vec2(100, 100), Vec2(139, 100), Vec2(139, 139), Vec2(119, 139),
+                                  Vec2(100, 120)};
+    outline.count = static_cast<int>(rim.size());
+    std::ranges::copy(rim, outline.places.begin());
+  };
+  const Metrics metrics = score(with_a_mover(6, outlined));
+  EXPECT_NEAR(get(metrics, "mover.region_j"), 1 - 190 / 1600.0, 1e-12);
+  EXPECT_NEAR(get(metrics, "mover.pixel_iou"), 1 - 190 / 1600.0, 1e-12);
+  EXPECT_DOUBLE_EQ(get(metrics, "mover.hota"), 1);  // by boxes
+  const Metrics by_mask = score(with_a_mover(6, [&](test::FrameMaker& frame) {
+    outlined(frame);
+    frame.record().masks[9] = {cv::Rect(100, 100, 40, 40), {0, 1200, 400}};
+  }));
+  EXPECT_NEAR(get(by_mask, "mover.region_j"), 0.75, 1e-12);
 }
 
 TEST(Movers, HaveNoPixelsWithoutMasksOrPicture) {
