@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -157,14 +156,16 @@ std::optional<std::uint64_t> video_in(const files::JsonNode& json, const std::st
       ids[name] = id_in(one["id"]);
     });
   }
-  const std::string names = fmt::format("{}", fmt::join(ids | std::views::keys, ", "));
+  std::vector<std::string> names;
+  for (const auto& [name, id] : ids) names.push_back(name);
   if (const auto found = ids.find(video); found != ids.end()) return found->second;
   if (!video.empty()) {
-    throw files::JsonNode::Error(fmt::format("there is no video {}, but {}", video, names));
+    throw files::JsonNode::Error(
+        fmt::format("there is no video {}, but {}", video, fmt::join(names, ", ")));
   }
   if (ids.size() < 2) return std::nullopt;
   throw files::JsonNode::Error(
-      fmt::format("it has several videos: {}; name one (labels_video)", names));
+      fmt::format("it has several videos: {}; name one (labels_video)", fmt::join(names, ", ")));
 }
 
 Labels read_coco(const std::filesystem::path& file, const std::string& video) {

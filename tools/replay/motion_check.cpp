@@ -333,7 +333,8 @@ void MotionCheck::require_right(const MotionSource& motion, const input::Source&
     std::ranges::move(fits_of(motion_in, other.remedy), std::back_inserter(fits));
   }
   const double as_told = share_of(fits.front().seen);
-  std::ranges::stable_partition(fits, [](const Fit& fit) { return fit.axes.isIdentity(); });
+  std::stable_partition(fits.begin(), fits.end(),
+                        [](const Fit& fit) { return fit.axes.isIdentity(); });
   const Fit& best = best_of(fits);
   std::vector<std::string> remedies;
   if (share_of(best.seen) >= std::max(kFits, as_told + by_chance())) {
