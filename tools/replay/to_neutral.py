@@ -10,7 +10,6 @@ skipped. --axes: where x, y and z of the poses' camera point; --inverse: poses o
 
 import argparse
 import re
-import shutil
 from decimal import Decimal
 from pathlib import Path
 
@@ -74,7 +73,7 @@ if len(pictures) != len(times):
 names = [f"{k:06}{picture.suffix}" for k, picture in enumerate(pictures)]
 (asked.out / "pictures").mkdir(parents=True)
 for picture, name in zip(pictures, names):
-    shutil.copy(picture, asked.out / "pictures" / name)
+    (asked.out / "pictures" / name).write_bytes(picture.read_bytes())
 write(asked.out / "times.csv", "time_ns,picture", zip(times, names))
 if asked.poses:
     axes = np.array([SIDES[side] for side in asked.axes]).T
@@ -85,8 +84,7 @@ if asked.imu:
     write(asked.out / "imu.csv", "#timestamp [ns],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x,a_RS_S_y,a_RS_S_z",
           ([t, *(scale * row)] for t, row in rows_of("imu")))  # fmt: skip
 width, height, *lens = asked.camera
-yaml = (f"camera_model: pinhole\nresolution: [{width:.0f}, {height:.0f}]\n"
-        f"intrinsics: {lens}\ndistortion_model: none\n")  # fmt: skip
+yaml = [[f"resolution: [{width:.0f}, {height:.0f}]"], [f"intrinsics: {lens}"], ["distortion_model: none"]]
 if asked.camera_on_imu:
-    yaml += f"T_BS: {np.reshape(asked.camera_on_imu, (4, 4)).tolist()}\n"
-(asked.out / "calibration.yaml").write_text(yaml)
+    yaml.append([f"T_BS: {np.reshape(asked.camera_on_imu, (4, 4)).tolist()}"])
+write(asked.out / "calibration.yaml", "camera_model: pinhole", yaml)
