@@ -252,7 +252,7 @@ TEST(Table, IsAFewLinesThatFitATerminalAndShowsADashForWhatIsUndefined) {
     std::istringstream text(output::table(score(recording)));
     int lines = 0;
     for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
-    EXPECT_EQ(lines, 6);  // rebels, a remark on them, objects, squares, size, time
+    EXPECT_EQ(lines, 7);  // rebels, a remark on them, objects, squares, movers, size, time
   }
   const std::string empty = output::table(score(recording::Recording{}));
   EXPECT_NE(empty.find("nothing to find"), std::string::npos) << empty;

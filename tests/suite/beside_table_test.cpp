@@ -46,15 +46,15 @@ TEST(StandingTable, HasARowForEachDetectorOverWhatItHas) {
   other.scenarios[0].runs[0].metrics.emplace_back("time.process_ms_median", 7);
   const std::string head =
       "| detector | recall | F1 | false corners (per frame) | false (per 100 frames) | boxed "
-      "movers | filter (ms) | process "
-      "(ms) "
-      "|\n|---|---|---|---|---|---|---|---|\n";
+      "movers | HOTA | detected | J&F | box latency (ms) | filter (ms) | process (ms) "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   const std::vector<SuiteResult> others{other};
-  EXPECT_EQ(standing_table(suite, others), head +
-                                               "| `lcs` | - | 0.650 | - | - | - | 1.5 | - |\n"
-                                               "| `klt` | - | 0.650 | - | - | - | 3.0 | 7.0 |\n"
-                                               "\nMeans over 3 scenarios; F1 and recall over the "
-                                               "2 with F1.\n");
+  EXPECT_EQ(standing_table(suite, others),
+            head +
+                "| `lcs` | - | 0.650 | - | - | - | - | - | - | - | 1.5 | - |\n"
+                "| `klt` | - | 0.650 | - | - | - | - | - | - | - | 3.0 | 7.0 |\n"
+                "\nMeans over 3 scenarios; F1 and recall over the "
+                "2 with F1.\n");
   for (ScenarioResult& world : suite.scenarios) world.drawn = Drawn{"room", 0, {}};
   EXPECT_NE(standing_table(suite, others).find("| `lcs` | - | 0.650±1.906 |"), std::string::npos)
       << standing_table(suite, others);

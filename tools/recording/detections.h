@@ -108,7 +108,8 @@ struct Detections {
 Detections read_detections(const std::filesystem::path& csv, Recording sequence);
 
 /// Writes a run's verdicts and boxes in the same format, frame by frame. Reading them back
-/// reproduces the rebel and square metrics to the last bit.
+/// reproduces the metrics of rebels, squares and movers to the last bit, except average precision:
+/// the format has no log odds.
 class DetectionsWriter {
  public:
   /// \throws OutputError

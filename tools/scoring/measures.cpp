@@ -77,9 +77,12 @@ void measure_hota(std::span<const FrameBoxes> frames, const Counts& counts,
     }
     const double detection = right / (boxes - right);
     const double association = associated / std::max(1, right);
-    measures.detection += detection / kThresholds;
-    measures.association += association / kThresholds;
-    measures.hota += std::sqrt(detection * association) / kThresholds;
+    measures.detection += detection;
+    measures.association += association;
+    measures.hota += std::sqrt(detection * association);
+  }
+  for (double* sum : {&measures.hota, &measures.detection, &measures.association}) {
+    *sum /= kThresholds;  // once, so that right tracks have exactly 1
   }
 }
 
