@@ -108,8 +108,8 @@ struct Detections {
 Detections read_detections(const std::filesystem::path& csv, Recording sequence);
 
 /// Writes a run's verdicts and boxes in the same format, frame by frame. Reading them back
-/// reproduces the metrics of rebels, squares and movers to the last bit, except average precision:
-/// the format has no log odds.
+/// reproduces the metrics of rebels and squares to the last bit, except average precision: the
+/// format has no log odds. It does not tell which squares move, so that all do (`mover.*`).
 class DetectionsWriter {
  public:
   /// \throws OutputError
