@@ -31,11 +31,11 @@ constexpr int kLongest_px = 1 << 20;
 
 /// \throws std::runtime_error; the caller puts the place before its message.
 template <class... Arguments>
-[[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+[[noreturn]] void fail_reading(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   throw std::runtime_error(fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 void require(bool condition, const char* what) {
-  if (!condition) refuse("is not {}", what);
+  if (!condition) fail_reading("is not {}", what);
 }
 
 /// Calls `use`; prefixes its errors with their place, as ".corners.x[3] is not a number".
@@ -45,7 +45,7 @@ void within(const std::string& place, const auto& use) {
   } catch (const std::runtime_error& error) {
     const std::string_view what = error.what();
     const bool goes_on = what.starts_with('.');
-    refuse("{}{}{}", place, goes_on ? "" : " ", what);
+    fail_reading("{}{}{}", place, goes_on ? "" : " ", what);
   }
 }
 
@@ -58,7 +58,7 @@ std::optional<Json> find(Json json, const char* key) {
 Json member(Json json, const char* key) {
   require(json.is_object(), "an object");
   const std::optional<Json> found = find(json, key);
-  if (!found) refuse("has no {}", key);
+  if (!found) fail_reading("has no {}", key);
   return *found;
 }
 
@@ -114,7 +114,7 @@ void read(Json json, Enum& value) {
   read(json, text);
   const auto found = std::ranges::find(names, text);
   if (found == names.end() || text.empty()) {
-    refuse("is the unknown word '{}'", input::printable(text));  // NUL would end it
+    fail_reading("is the unknown word '{}'", input::printable(text));  // NUL would end it
   }
   value = static_cast<Enum>(found - names.begin());
 }
@@ -130,7 +130,7 @@ void read(Json json, std::span<double> values) {
 /// \return how many points there are, of those that there is room for.
 int read_points(Json json, std::span<Vec2> points) {
   const JsonList list = list_of(json, "a list of points");
-  if (list.size() > points.size()) refuse("has over {} points", points.size());
+  if (list.size() > points.size()) fail_reading("has over {} points", points.size());
   int count = 0;
   for (const Json item : list) read(item, std::span(points[count++].data(), 2));
   return count;
@@ -153,7 +153,7 @@ void read(Json json, Form<sim::PixelRuns> runs) {
       runs.value.push_back(static_cast<std::uint32_t>(run));
     }
   } catch (const std::invalid_argument&) {
-    refuse("is not the word of a mask");
+    fail_reading("is not the word of a mask");
   }
 }
 
@@ -178,7 +178,7 @@ void read(Json json, std::vector<Item>& items) {
   std::vector<JsonList::iterator> cells;  // the next of each column
   for (const std::optional<JsonList>& column : columns) {
     if (column && column->size() != first.size()) {
-      refuse("has columns that differ in length");
+      fail_reading("has columns that differ in length");
     }
     cells.push_back(column.value_or(first).begin());
   }
@@ -191,7 +191,7 @@ void read(Json json, std::vector<Item>& items) {
       try {
         read(*cells[place], value);
       } catch (const std::runtime_error& error) {
-        refuse(".{}[{}] {}", name, row, error.what());
+        fail_reading(".{}[{}] {}", name, row, error.what());
       }
       ++cells[place];
     });
@@ -225,7 +225,7 @@ std::vector<Item> read_masks(Json json, const char* key, bool may_lack) {
     for (const std::uint32_t run : item.mask) sum += run;
     if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px ||
         sum != width * height) {
-      refuse(".{}.mask[{}] is not as large as its box", key, &item - items.data());
+      fail_reading(".{}.mask[{}] is not as large as its box", key, &item - items.data());
     }
   }
   return items;
@@ -313,7 +313,7 @@ void read_layers(Json json, FrameRecord& frame) {
 void read_truth(Json json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
-  if (index != frame.index) refuse("index differs from the layers' index");
+  if (index != frame.index) fail_reading("index differs from the layers' index");
   read_member(json, "true_motion", frame.true_motion);
   read_member(json, "corners", frame.corner_truth);
   frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
@@ -435,7 +435,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& folder)
     read_member(json, "centre_px", std::span(camera.centre_px.data(), 2));
     const auto read_side = [&](const char* key, int& side) {
       read_member(json, key, side);
-      if (side < 1 || side > kLongest_px) refuse("{} is not the side of a picture", key);
+      if (side < 1 || side > kLongest_px) fail_reading("{} is not the side of a picture", key);
     };
     read_side("width_px", camera.width_px);
     read_side("height_px", camera.height_px);
@@ -500,9 +500,10 @@ const FrameRecord* SeenReader::at(std::int64_t t_ns) {
       read_member(json, "truth", frame.corner_truth);
       frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
       if (frame.corner_truth.size() != frame.corners_px.size()) {
-        refuse("truth is of another number of corners");
+        fail_reading("truth is of another number of corners");
       }
-      if (frame_ && frame.t_ns <= frame_->t_ns) refuse("t_ns is not later than in the line before");
+      if (frame_ && frame.t_ns <= frame_->t_ns)
+        fail_reading("t_ns is not later than in the line before");
     });
     if (!is_there) return nullptr;
     frame_ = std::move(frame);

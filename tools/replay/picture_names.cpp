@@ -70,7 +70,7 @@ std::vector<Name> names_of(const std::vector<fs::path>& files) {
   return names;
 }
 
-[[noreturn]] void refuse(const Name& of, const std::string& why) {
+[[noreturn]] void refuse_name(const Name& of, const std::string& why) {
   throw input::Error({of.file.parent_path().string(), 0},
                      "the order of its pictures is not certain: {}; take away all but the pictures "
                      "of one camera, or give a table with their names and times (times)",
@@ -132,17 +132,18 @@ void require_one_kind(const std::vector<Name>& names) {
   for (const Name& name : names) {
     if (name.numbers.empty() != names.front().numbers.empty()) {
       const Name& bare = name.numbers.empty() ? name : names.front();
-      refuse(name, fmt::format("{} has no number, and others have", bare.file.filename().string()));
+      refuse_name(name,
+                  fmt::format("{} has no number, and others have", bare.file.filename().string()));
     }
     std::vector<std::string> numbers;
     for (const Number& number : name.numbers) numbers.push_back(number.text());
     const auto [other, is_new] = seen.emplace(numbers, &name);
     if (!is_new && !numbers.empty()) {
-      refuse(name, fmt::format("{} have the same number", both(*other->second, name)));
+      refuse_name(name, fmt::format("{} have the same number", both(*other->second, name)));
     }
     if (name.words != names.front().words && name.numbers.size() > 1) {
-      refuse(name, fmt::format("{} have different numbers of numbers or words between them",
-                               both(names.front(), name)));
+      refuse_name(name, fmt::format("{} have different numbers of numbers or words between them",
+                                    both(names.front(), name)));
     }
   }
 }
@@ -162,10 +163,11 @@ void sort_by_numbers(std::vector<Name>& names) {
     if (std::ranges::all_of(
             names, [](const Name& name) { return seconds_and_nanoseconds(name).has_value(); }))
       return;
-    refuse(names.front(), fmt::format("{} of {} numbers in the names vary, and another one gives "
-                                      "another order: {} may be the next",
-                                      places.size(), names.front().numbers.size(),
-                                      both(*differ.first, *differ.second)));
+    refuse_name(names.front(),
+                fmt::format("{} of {} numbers in the names vary, and another one gives "
+                            "another order: {} may be the next",
+                            places.size(), names.front().numbers.size(),
+                            both(*differ.first, *differ.second)));
   }
 }
 
@@ -175,17 +177,19 @@ void require_fractions(const std::vector<Name>& names, std::size_t place) {
   for (std::size_t i = 1; i < names.size(); ++i) {
     const Number &a = names[i - 1].numbers[place], &b = names[i].numbers[place];
     if (a.whole == b.whole && a.whole.size() < kEpoch && a.fraction.size() > b.fraction.size()) {
-      refuse(names[i],
-             fmt::format(
-                 "{} may be fractions or two numbers each, and have not the same count of digits",
-                 both(names[i - 1], names[i])));
+      refuse_name(
+          names[i],
+          fmt::format(
+              "{} may be fractions or two numbers each, and have not the same count of digits",
+              both(names[i - 1], names[i])));
     }
   }
   std::vector<std::string> texts;
   for (const Name& name : names) texts.push_back(name.numbers[place].text());
   if (!lack_zeros({texts.begin(), texts.end()})) return;
-  refuse(names.front(),
-         "the fractions of seconds in the names lack leading zeros: 12.5 stands for 12.000000005");
+  refuse_name(
+      names.front(),
+      "the fractions of seconds in the names lack leading zeros: 12.5 stands for 12.000000005");
 }
 
 /// The unit of numbers that are times, in ns; absent if they are none.

@@ -9,7 +9,7 @@
 namespace lcs::scoring {
 namespace {
 
-constexpr double kMatch = 0.5;
+constexpr double kTrackMatch = 0.5;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 /// A matched pair of a frame.
@@ -98,7 +98,7 @@ void measure_mota(std::span<const FrameBoxes> frames, const Counts& counts,
     for (Eigen::Index i = 0; i < worth.rows(); ++i) {
       const auto track = before.find(frame.objects[i]);
       for (Eigen::Index j = 0; j < worth.cols(); ++j) {
-        if (worth(i, j) < kMatch - kRounding) {
+        if (worth(i, j) < kTrackMatch - kRounding) {
           worth(i, j) = 0;
         } else if (track != before.end() && track->second == frame.tracks[j]) {
           worth(i, j) += kKept;
@@ -125,7 +125,7 @@ void measure_idf1(std::span<const FrameBoxes> frames, const Counts& counts,
   Eigen::MatrixXd together = Eigen::MatrixXd::Zero(counts.objects.size(), counts.tracks.size());
   for (const FrameBoxes& frame : frames) {
     together(frame.objects, frame.tracks).array() +=
-        (frame.overlap.array() >= kMatch).cast<double>();
+        (frame.overlap.array() >= kTrackMatch).cast<double>();
   }
   double right = 0;
   for (const auto& [object, track] : best_pairs(together)) right += together(object, track);
