@@ -72,7 +72,7 @@ def draw_bins(axes, detectors, column, edges, title, unit, measure=0):
         if drawn:
             axes.plot(*zip(*drawn), color=colour, marker=mark, label=name)
     axes.set(title=title, xlabel=unit, xscale="log", ylim=(0, 1), ylabel=["F1", "precision", "recall"][measure])
-    axes.set_xticks(edges[::2], [f"{edge:.2g}" for edge in edges[::2]])
+    axes.set_xticks(edges[::2], [f"{edge:.0f}" if edge >= 10 else f"{edge:.2g}" for edge in edges[::2]])
     axes.minorticks_off()
 
 
