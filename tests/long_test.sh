@@ -1,4 +1,4 @@
-# Functions of the long tests: skip, fail, is_offline, download.
+# Functions of the long tests: skip, fail, is_offline, install, download.
 # shellcheck shell=bash
 
 skip() {
@@ -13,6 +13,20 @@ fail() {
 # Whether the log of pip tells that the package registry is not reachable.
 is_offline() {
   grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$1"
+}
+
+# install WORK OPTION|PACKAGE... installs Python packages in a separate folder, WORK/venv; skips the test if the registry
+# is not reachable.
+install() {
+  local work=$1 log=$1/pip.log
+  shift
+  python3 -m venv "$work/venv" 2>/dev/null ||
+    skip "the test needs a virtual environment (Debian: python3-venv, which tools/test --all installs)"
+  if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet "$@" >"$log" 2>&1; then
+    cat "$log"
+    is_offline "$log" && skip "the Python package registry is not reachable, so there is no $*"
+    fail "pip does not install $*"
+  fi
 }
 
 # download PACKAGE WORK LOG unpacks the newest wheel into WORK/unpacked; fails if the registry is not

@@ -13,14 +13,7 @@ jobs=$source/tools/cluster/kubernetes.yaml
 
 rm -rf "$work"
 mkdir -p "$work/bin"
-python3 -m venv "$work/venv" 2>/dev/null ||
-  skip "the validator needs a virtual environment (Debian: python3-venv, which tools/test --all installs)"
-if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
-  kubernetes-validate >"$work/pip.log" 2>&1; then
-  cat "$work/pip.log"
-  is_offline "$work/pip.log" && skip "the Python package registry is not reachable, so there is no validator"
-  fail "pip does not install kubernetes-validate"
-fi
+install "$work" kubernetes-validate
 validate() { "$work/venv/bin/kubernetes-validate" --strict "$@"; }
 validate "$jobs" || fail "the jobs are not valid"
 validate --kubernetes-version 1.33 "$jobs" || fail "the jobs are not valid in the oldest version that they name"

@@ -12,15 +12,6 @@ here=$(dirname "${BASH_SOURCE[0]}")
 
 rm -rf "$work"
 mkdir -p "$work"
-python3 -m venv "$work/venv" 2>/dev/null ||
-  skip "the libraries need a virtual environment (Debian: python3-venv, which tools/test --all installs)"
-if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
-  --only-binary :all: pycocotools 'trackeval>=1.3' scikit-learn scikit-image opencv-python-headless >"$work/pip.log" 2>&1; then
-  cat "$work/pip.log"
-  if is_offline "$work/pip.log"; then
-    skip "the Python package registry is not reachable, so there are no libraries to compare with"
-  fi
-  fail "pip does not install pycocotools, trackeval, scikit-learn, scikit-image and opencv"
-fi
+install "$work" --only-binary :all: pycocotools 'trackeval>=1.3' scikit-learn scikit-image opencv-python-headless
 "$lcs" suite --worlds train --count "$count" --keep all --out "$work/suite" --quiet >"$work/suite.log" || [[ $? -eq 1 ]]
 "$work/venv/bin/python" "$here/field_measures.py" "$work"/suite/runs/*/seed*

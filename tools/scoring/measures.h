@@ -34,7 +34,7 @@ struct TrackMeasures {
 /// \param frames with at least one object.
 TrackMeasures measure_tracks(std::span<const FrameBoxes> frames);
 
-/// A point of a precision-recall curve: what is found at a threshold or above.
+/// A point of a precision-recall curve: the findings at a threshold or above.
 struct Found {
   std::int64_t right = 0, wrong = 0;
 };

@@ -229,7 +229,7 @@ std::vector<Metric> mover_metrics() {
        kShare, "detected",
        "share of the same boxes that are detected by the rule of event cameras' papers (Mitrokhin "
        "et "
-       "al. 2018). A square covers over half of the box, and more of it than of what is round it",
+       "al. 2018). A square covers over half of the box, and more of it than of its surroundings",
        kInMeasures},
       {"mover.region_j", [](auto& s) { return mean(s.movers.region_j); }, kShare, "",
        "J: IoU of the moving pixels with those of the moving squares' masks, outlines or boxes. "

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""FoELS as a detector: what does not flow away from the focus of expansion moves by itself.
+"""FoELS as a detector: pixels that do not flow away from the focus of expansion move by themselves.
 
     lcs run scenarios/crossing.yaml --detector foels --detector-command 'python3 tests/comparators/rivals/foels.py'
 
