@@ -16,6 +16,7 @@
 
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::sim {
 namespace {
@@ -68,8 +69,8 @@ class SceneFile : public testing::Test {
     }
   }
 
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const fs::path folder_ = lcs::test::folder_of_the_process() /
+                           testing::UnitTest::GetInstance()->current_test_info()->name();
   const fs::path scene_ = folder_ / "scene.xml";
 };
 
@@ -403,7 +404,7 @@ TEST_F(SceneFile, FindsFilesWhereMujocoFindsThem) {
   const std::string of_mesh =
       "<mujoco><asset><mesh name='m' file='m.obj'/></asset><worldbody><body name='ball'>"
       "<geom type='mesh' mesh='m'/></body></worldbody></mujoco>";
-  const std::string elsewhere = (fs::path(testing::TempDir()) / "elsewhere").string();
+  const std::string elsewhere = (lcs::test::folder_of_the_process() / "elsewhere").string();
   write(elsewhere + "/m.obj", kTetrahedron);
   write(elsewhere + "/part.xml", of_mesh);
   struct Case {

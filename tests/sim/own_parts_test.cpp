@@ -16,6 +16,7 @@
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::sim {
 namespace {
@@ -63,8 +64,8 @@ class OwnPart : public testing::Test {
     }
   }
 
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const fs::path folder_ = lcs::test::folder_of_the_process() /
+                           testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 // ---- The worked example of scenes/README.md

@@ -14,6 +14,7 @@
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::sim {
 namespace {
@@ -164,7 +165,7 @@ TEST(Scene, AMissingTextureFileIsNamedWithItsLine) {
 }
 
 TEST(Scene, TexturesAndIncludesBesideTheSceneAreFound) {
-  const std::filesystem::path folder(testing::TempDir());
+  const std::filesystem::path folder = lcs::test::folder_of_the_process();
   lcs::test::write_picture(folder / "beside.png", cv::Mat3b(8, 8, cv::Vec3b(0, 0, 255)));
   std::ofstream(folder / "beside.xml")
       << "<mujoco><worldbody><body name='included' pos='3 0 0'><geom type='box' size='.5 .5 .5' "
@@ -178,7 +179,7 @@ TEST(Scene, TexturesAndIncludesBesideTheSceneAreFound) {
 }
 
 TEST(Scene, APipeOrADeviceIsRefusedWhereItIsNamedAndNotWaitedFor) {
-  const std::filesystem::path pipe = std::filesystem::path(testing::TempDir()) / "pipe";
+  const std::filesystem::path pipe = lcs::test::folder_of_the_process() / "pipe";
   std::filesystem::remove(pipe);
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   auto s = scenario_in("lab", 0, 1);
@@ -206,7 +207,7 @@ TEST(Scene, ANulByteIsNoEndOfFile) {
 }
 
 TEST(Scene, FilesThatIncludeEachOtherTwiceAreRefused) {
-  const std::filesystem::path folder(testing::TempDir());
+  const std::filesystem::path folder = lcs::test::folder_of_the_process();
   for (int i = 0; i < 12; ++i) {
     std::ofstream file(folder / ("twice" + std::to_string(i) + ".xml"));
     file << "<mujoco>";
@@ -402,7 +403,7 @@ TEST(ActorShape, TextureIsAStyleOrAPictureAndElseAnError) {
     s.actors[0].texture = "brocks";
     expect_error(s, {"test.yaml:7", "brocks", "bricks"});
   }
-  const std::string file = testing::TempDir() + "/no_picture.png";
+  const std::string file = lcs::test::folder_of_the_process() / "no_picture.png";
   std::ofstream(file) << "text";
   s.actors[0].texture = file;
   expect_error(s, {"test.yaml:7", "no_picture.png"});
@@ -412,7 +413,7 @@ TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
   // white, with a blue upper left quarter, which a box before the camera must show on its face
   cv::Mat3b picture(64, 64, cv::Vec3b(255, 255, 255));
   picture(cv::Rect(0, 0, 32, 32)).setTo(cv::Vec3b(255, 0, 0));
-  const std::string file = testing::TempDir() + "/quarter.png";
+  const std::string file = lcs::test::folder_of_the_process() / "quarter.png";
   lcs::test::write_picture(file, picture);
   for (const double heading : {0.0, 90.0, 180.0, 270.0}) {
     auto s = scenario_in_mjcf(floor_with(""), 0, 1);
@@ -434,7 +435,7 @@ TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
 }
 
 TEST(Scene, AFolderOfOnesOwnScenesNeedsNoRoversAndActors) {
-  setenv("LCS_SCENES", testing::TempDir().c_str(), 1);
+  setenv("LCS_SCENES", lcs::test::folder_of_the_process().c_str(), 1);
   auto s = scenario_in("lab", 0, 1);
   s.actors = {line_actor("a", Shape::box, {2, 0}, 0, 0)};
   EXPECT_NO_THROW(load(s));

@@ -10,6 +10,7 @@
 #include "sim/camera/linear_light.h"
 #include "sim/camera/point_spread.h"
 #include "sim/world/world.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::sim {
 
@@ -47,7 +48,7 @@ scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int f
 
 scenario::Scenario scenario_in_mjcf(const std::string& mjcf, double speed_mps, int frames) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const auto file = std::filesystem::path(testing::TempDir()) / (test + ".xml");
+  const auto file = lcs::test::folder_of_the_process() / (test + ".xml");
   std::ofstream(file) << mjcf;
   scenario::Scenario s = scenario_in("lab", speed_mps, frames);
   s.scene = file;

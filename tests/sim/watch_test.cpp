@@ -11,6 +11,7 @@
 #include "sim/world/overlap.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::sim {
 namespace {
@@ -196,8 +197,7 @@ TEST(Watch, TellsAnActorThatNoPictureShows) {
 /// An actor's file with one box of half a metre.
 scenario::Actor box_in_file(double low_m, double stated_m) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / (test + "_box.xml");
+  const std::filesystem::path file = lcs::test::folder_of_the_process() / (test + "_box.xml");
   std::ofstream(file) << fmt::format(
       "<mujoco><custom><numeric name='size' data='{0} {0} {0}'/></custom><worldbody>"
       "<body name='base'><geom type='box' size='.25 .25 .25' pos='0 0 {1}'/></body>"

@@ -376,10 +376,12 @@ TEST_F(OwnDetector, OfAnyCommandOfAShellEndsWithAProgramThatIsKilled) {
       std::erase(all, command.pid());
       return all;
     };
+    // `python3` may be a script that starts a Python of another path
     const auto has_nap = [&] {
       const auto all = naps_now();
       return std::ranges::any_of(all, [](pid_t process) {
-        return test::command_line_of(process).starts_with(python() + std::string(1, '\0'));
+        const std::string line = test::command_line_of(process);
+        return fs::path(line.substr(0, line.find('\0'))).filename().string().starts_with("python");
       });
     };
     for (int i = 0; i < 1000 && !has_nap(); ++i) std::this_thread::sleep_for(10ms);

@@ -1,5 +1,5 @@
 /// \file
-/// A folder that is deleted at the end of the test.
+/// Folders for a test's files: no two processes share one.
 #pragma once
 
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 
 namespace lcs::test {
 
+/// A folder that is deleted with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -26,5 +27,12 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// A folder of this process alone, deleted at its end. Tests that run side by side and have one
+/// name in two suites would overwrite each other's files in a common folder.
+inline const std::filesystem::path& folder_of_the_process() {
+  static const TemporaryFolder folder;
+  return folder.path();
+}
 
 }  // namespace lcs::test
