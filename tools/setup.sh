@@ -12,9 +12,9 @@ preset=release  # or ci, in the same folder
 # Packages for building and running. Without --no-install-recommends OpenCV would pull in a desktop.
 packages=(
   g++ cmake ninja-build pkg-config
-  libosmesa6 libegl1 libopencv-dev libavformat-dev libeigen3-dev
+  libosmesa6 libegl1 libopencv-dev libavformat-dev libswscale-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
-  libdeflate-dev libsimdjson-dev libturbojpeg0-dev libnlopt-cxx-dev libssl-dev
+  libdeflate-dev libspng-dev libsimdjson-dev libturbojpeg0-dev libnlopt-cxx-dev libboost-dev libssl-dev
   pybind11-dev python3-dev python3-numpy ccache
 )
 

@@ -1,95 +1,40 @@
 #include "tools/sequence/png.h"
 
-#include <libdeflate.h>
+#include <fmt/format.h>
+#include <spng.h>
 
-#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
-
-#include "tools/files/output_file.h"
 
 namespace lcs::sequence {
 namespace {
 
-// "Portable Network Graphics (PNG) Specification", W3C.
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-enum ColourType : char { kGrey = 0, kColour = 2, kIndexed = 3 };
+constexpr int kLevel = 1;  // of zlib; slower ones save a few percent of photographs
 
-void append_big_endian(std::string& to, std::uint32_t number) {
-  for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift & 0xff);
-}
-
-/// Appends length, type, data, and a checksum of type and data.
-void append_chunk(std::string& to, std::string_view type, std::string_view data) {
-  append_big_endian(to, static_cast<std::uint32_t>(data.size()));
-  const std::size_t begin = to.size();
-  to += type;
-  to += data;
-  append_big_endian(to, libdeflate_crc32(0, to.data() + begin, to.size() - begin));
-}
-
-std::string header(const cv::Mat& image, ColourType colour) {
-  std::string data;
-  append_big_endian(data, static_cast<std::uint32_t>(image.cols));
-  append_big_endian(data, static_cast<std::uint32_t>(image.rows));
-  data += image.depth() == CV_16U ? '\x10' : '\x08';
-  data += static_cast<char>(colour);
-  data.append(3, '\0');  // the standard compression and filter method, not interlaced
-  return data;
-}
-
-/// Converts a row to the file format: big-endian, red first.
-void lay_out(const cv::Mat& image, int y, std::vector<unsigned char>& row) {
-  if (image.type() == CV_8UC3) {
-    const cv::Vec3b* from = image.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      for (int c = 0; c < 3; ++c) row[static_cast<std::size_t>(3 * x + c)] = from[x][2 - c];
-    }
-  } else if (image.depth() == CV_16U) {
-    const std::uint16_t* from = image.ptr<std::uint16_t>(y);
-    for (std::size_t i = 0; i < row.size() / 2; ++i) {
-      row[2 * i] = static_cast<unsigned char>(from[i] >> 8);
-      row[2 * i + 1] = static_cast<unsigned char>(from[i] & 0xff);
-    }
-  } else {
-    std::copy_n(image.ptr(y), row.size(), row.begin());
-  }
-}
-
-/// Each row of the result: the filter's code, then the filtered bytes.
-std::string filtered(const cv::Mat& image, PngFilter filter) {
-  const std::size_t pixel = image.elemSize();
-  std::vector<unsigned char> row(static_cast<std::size_t>(image.cols) * pixel), above(row.size());
-  std::string all((row.size() + 1) * static_cast<std::size_t>(image.rows), '\0');
-  char* to = all.data();
-  for (int y = 0; y < image.rows; ++y) {
-    lay_out(image, y, row);
-    *to++ = static_cast<char>(filter);
-    std::ranges::copy(row, to);
-    if (filter == PngFilter::sub) {
-      for (std::size_t i = pixel; i < row.size(); ++i) {
-        to[i] = static_cast<char>(row[i] - row[i - pixel]);
-      }
-    } else if (filter == PngFilter::up) {
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        to[i] = static_cast<char>(row[i] - above[i]);
-      }
-      above.swap(row);
-    }
-    to += row.size();
-  }
-  return all;
-}
-
-std::string encode(const cv::Mat& image, ColourType colour, PngFilter filter,
-                   std::string_view palette) {
-  std::string bytes(kSignature);
-  append_chunk(bytes, "IHDR", header(image, colour));
-  if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
-  append_chunk(bytes, "IDAT", files::compressed(filtered(image, filter), files::Packing::zlib));
-  append_chunk(bytes, "IEND", "");
-  return bytes;
+std::string encode(const cv::Mat& image, spng_color_type colour, int filters, spng_plte* palette) {
+  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> encoder(spng_ctx_new(SPNG_CTX_ENCODER),
+                                                                    &spng_ctx_free);
+  spng_ihdr header{};
+  header.width = static_cast<std::uint32_t>(image.cols);
+  header.height = static_cast<std::uint32_t>(image.rows);
+  header.bit_depth = image.depth() == CV_16U ? 16 : 8;
+  header.color_type = static_cast<std::uint8_t>(colour);
+  spng_set_option(encoder.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  spng_set_option(encoder.get(), SPNG_IMG_COMPRESSION_LEVEL, kLevel);
+  spng_set_option(encoder.get(), SPNG_FILTER_CHOICE, filters);
+  spng_set_ihdr(encoder.get(), &header);
+  if (palette) spng_set_plte(encoder.get(), palette);
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
+  int error = spng_encode_image(encoder.get(), whole.data, whole.total() * whole.elemSize(),
+                                SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+  std::size_t size = 0;
+  const std::unique_ptr<char, decltype(&std::free)> bytes(
+      error ? nullptr : static_cast<char*>(spng_get_png_buffer(encoder.get(), &size, &error)),
+      &std::free);
+  if (error) throw std::runtime_error(fmt::format("libspng: {}", spng_strerror(error)));
+  return {bytes.get(), size};
 }
 
 }  // namespace
@@ -98,16 +43,24 @@ std::string encode_png(const cv::Mat& image, PngFilter filter) {
   const bool fits = !image.empty() && (image.depth() == CV_8U || image.depth() == CV_16U) &&
                     (image.channels() == 1 || image.channels() == 3);
   if (!fits) throw std::invalid_argument("PNG takes images of 8 or 16 bits with 1 or 3 channels");
-  return encode(image, image.channels() == 1 ? kGrey : kColour, filter, "");
+  cv::Mat rgb;  // a picture of its own
+  if (image.type() == CV_8UC3) cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+  return encode(rgb.empty() ? image : rgb,
+                image.channels() == 1 ? SPNG_COLOR_TYPE_GRAYSCALE : SPNG_COLOR_TYPE_TRUECOLOR,
+                SPNG_FILTER_CHOICE_NONE << static_cast<int>(filter), nullptr);
 }
 
 std::string encode_png(const cv::Mat1b& indices, std::span<const Rgb> palette) {
   if (indices.empty() || palette.size() != 256) {
     throw std::invalid_argument("an indexed PNG needs pixels and a palette of 256 colours");
   }
-  std::string colours;
-  for (const Rgb& colour : palette) colours.append(colour.begin(), colour.end());
-  return encode(indices, kIndexed, PngFilter::none, colours);
+  spng_plte colours{};
+  colours.n_entries = 256;
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    const auto& [red, green, blue] = palette[i];
+    colours.entries[i] = {red, green, blue, 255};
+  }
+  return encode(indices, SPNG_COLOR_TYPE_INDEXED, SPNG_DISABLE_FILTERING, &colours);
 }
 
 }  // namespace lcs::sequence

@@ -1,6 +1,5 @@
 /// \file
-/// PNG encoder with libdeflate: two to three times as fast as OpenCV's writer or libpng with zlib,
-/// with smaller files, and with optional palettes.
+/// PNG files by libspng, with optional palettes, which OpenCV does not write.
 #pragma once
 
 #include <array>
@@ -22,7 +21,7 @@ enum class PngFilter : unsigned char {
 
 /// \param image 8 or 16 bits; 1 channel, or 3 in the order red, green, blue (8 bits: blue, green,
 ///   red, as in OpenCV).
-/// \throws std::invalid_argument for any other image, std::bad_alloc.
+/// \throws std::invalid_argument for any other image, std::runtime_error without memory.
 std::string encode_png(const cv::Mat& image, PngFilter filter);
 
 /// An indexed image: each pixel is an index into the palette. \throws as `encode_png`.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -30,25 +30,11 @@ double squared_error(const std::vector<double>& values, double mean) {
 }  // namespace
 
 double student_t_beyond(double t, int degrees_of_freedom) {
-  const double angle = std::atan(t / std::sqrt(degrees_of_freedom));
-  const double sine = std::sin(angle), cosine = std::cos(angle);
-  const bool is_odd = degrees_of_freedom % 2 == 1;
-  double term = is_odd ? cosine : 1, sum = 0;
-  for (int k = is_odd ? 3 : 2; k <= degrees_of_freedom; k += 2) {
-    sum += term;
-    term *= cosine * cosine * (k - 1) / k;
-  }
-  const double within = is_odd ? (angle + sine * sum) * 2 / std::numbers::pi : sine * sum;
-  return std::max(0.0, 1 - within);
+  return 2 * cdf(complement(boost::math::students_t(degrees_of_freedom), t));
 }
 
 double student_t_95(int degrees_of_freedom) {
-  double low = 0, high = 13;  // 12.706 for one degree of freedom
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (student_t_beyond(middle, degrees_of_freedom) > 1 - kConfidence ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return quantile(complement(boost::math::students_t(degrees_of_freedom), (1 - kConfidence) / 2));
 }
 
 Interval interval_of(const std::vector<double>& values) {

@@ -8,8 +8,8 @@
 
 namespace lcs::suite {
 
-/// The probability that |t| exceeds `t`, for Student's t (Abramowitz and Stegun, 26.7.3
-/// and 26.7.4). \param t >= 0. \param degrees_of_freedom >= 1.
+/// The probability that |t| exceeds `t`, for Student's t. \param t >= 0. \param degrees_of_freedom
+/// >= 1.
 double student_t_beyond(double t, int degrees_of_freedom);
 
 /// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1.
