@@ -27,7 +27,18 @@ struct VideoTimes {
   std::int64_t counted = 0;  ///< pictures by the file's header; 0: it does not count them
 };
 
-/// Functions of OpenCV's imgcodecs and videoio. The objects' virtual functions need no linking.
+/// A video that is being written.
+class VideoFile {
+ public:
+  virtual ~VideoFile() = default;
+  /// \return whether all is well; an error may be noticed at a later frame.
+  virtual bool write(const cv::Mat3b& picture) = 0;
+  /// Ends the file. \return as `write`.
+  virtual bool close() = 0;
+};
+
+/// Functions of OpenCV's imgcodecs and videoio, and of FFmpeg. The objects' virtual functions need
+/// no linking.
 struct Media {
   bool (*imencode)(const cv::String& extension, cv::InputArray picture, std::vector<uchar>& bytes,
                    const std::vector<int>& parameters);
@@ -35,11 +46,11 @@ struct Media {
   /// Without decoding a picture. OpenCV has a picture's time only after it is decoded, and loses
   /// the times of the last pictures. Empty if the file is no video.
   VideoTimes (*video_times)(const std::string& file);
-  /// By FFmpeg; not opened if it cannot. \param codec four characters.
+  /// By FFmpeg; not opened if it cannot.
   std::unique_ptr<cv::VideoCapture> (*read_video)(const std::string& file);
-  std::unique_ptr<cv::VideoWriter> (*write_video)(const std::string& file, const char* codec,
-                                                  double frames_per_second,
-                                                  const cv::Size& size_px);
+  /// An MP4 file. \param size_px even. \return null if FFmpeg cannot encode or open it.
+  std::unique_ptr<VideoFile> (*write_video)(const std::string& file, double frames_per_second,
+                                            const cv::Size& size_px);
 };
 
 /// Functions of OpenCV's highgui.

@@ -12,6 +12,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
+#include "tests/tools/videos.h"
 #include "tools/app/replay.h"
 #include "tools/replay/playback.h"
 

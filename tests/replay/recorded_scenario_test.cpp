@@ -19,6 +19,7 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
+#include "tests/tools/videos.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/playback.h"
 #include "tools/scoring/figures_file.h"

@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "sim/pictures/media.h"
-
 namespace lcs::output {
 namespace {
 
@@ -17,73 +15,40 @@ void require_writable(const std::filesystem::path& path) {
   files::write_file(path, std::string(kSome, '\0'));
 }
 
-/// Sets an environment variable for its lifetime, then restores it.
-class [[nodiscard]] Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    ::setenv(name, value, /*overwrite=*/1);
-  }
-  ~Variable() {
-    if (before_) {
-      ::setenv(name_, before_->c_str(), /*overwrite=*/1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
-
 }  // namespace
 
 Video::Video(const std::filesystem::path& path, cv::Size size_px, double frames_per_second)
-    : path_(path) {
-  // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
-  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
-  for (const char* const codec : {"avc1", "mp4v"}) {
-    writer_ = sim::media().write_video(path.string(), codec, frames_per_second, size_px);
-    if (writer_->isOpened()) return;
-  }
+    : path_(path), file_(sim::media().write_video(path.string(), frames_per_second, size_px)) {
+  if (file_) return;
   require_writable(path);
-  throw files::OutputError(fmt::format(
-      "OpenCV cannot write {}; install an FFmpeg with H.264 or MPEG-4, or use --no-video",
-      path.string()));
-}
-
-void Video::write(const cv::Mat3b& frame) {
-  writer_->write(frame);
-  ++frames_;
+  throw files::OutputError(
+      fmt::format("FFmpeg cannot write {}; install one with H.264 or MPEG-4, or use --no-video",
+                  path.string()));
 }
 
 void Video::close() {
-  writer_->release();
-  const auto written = open_video(path_);
-  const std::string first =
-      files::beginning(path_, 8);  // FFmpeg reads a file without this box, too
-  if (!first.ends_with("ftyp") || !written->isOpened() ||
-      static_cast<int>(written->get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
-    require_writable(path_);
-    throw files::OutputError(
-        fmt::format("{} did not become whole; make room there, choose another folder with --out, "
-                    "or use --no-video",
-                    path_.string()));
-  }
+  if (file_->close() && is_whole_) return;
+  require_writable(path_);
+  throw files::OutputError(
+      fmt::format("{} did not become whole; make room there, choose another folder with --out, or "
+                  "use --no-video",
+                  path_.string()));
 }
 
 std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file) {
   // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
   // OpenCV passes these options to `avformat_open_input`; it reads them at each opening.
-  const Variable options(
-      "OPENCV_FFMPEG_CAPTURE_OPTIONS",
-      fmt::format("protocol_whitelist;file|format_whitelist;{}", sim::kVideoFormats).c_str());
+  constexpr const char* kOptions = "OPENCV_FFMPEG_CAPTURE_OPTIONS";
+  const char* const set = std::getenv(kOptions);
+  const std::optional<std::string> before = set ? std::optional(std::string(set)) : std::nullopt;
+  const std::string ours =
+      fmt::format("protocol_whitelist;file|format_whitelist;{}", sim::kVideoFormats);
+  ::setenv(kOptions, ours.c_str(), /*overwrite=*/1);
   // An absolute path cannot be mistaken for a protocol.
-  return sim::media().read_video(std::filesystem::absolute(file).string());
+  auto video = sim::media().read_video(std::filesystem::absolute(file).string());
+  before ? ::setenv(kOptions, before->c_str(), /*overwrite=*/1) : ::unsetenv(kOptions);
+  return video;
 }
 
 }  // namespace lcs::output

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "sim/pictures/media.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::output {
@@ -15,22 +16,20 @@ inline constexpr const char* kVideoFile = "video.mp4";
 
 class Video {
  public:
-  /// H.264 if the installed OpenCV can encode it, else MPEG-4 part 2.
   /// \param size_px even width and height.
-  /// \throws OutputError if neither codec works.
+  /// \throws OutputError if no video can be written there.
   Video(const std::filesystem::path& path, cv::Size size_px, double frames_per_second);
 
   /// \param frame of size `size_px`.
-  void write(const cv::Mat3b& frame);
+  void write(const cv::Mat3b& frame) { is_whole_ &= file_->write(frame); }
 
-  /// \throws OutputError if the file is incomplete, for example on a full disk: OpenCV does not
-  ///   report that.
+  /// \throws OutputError if the file is incomplete, for example on a full disk.
   void close();
 
  private:
   std::filesystem::path path_;
-  std::unique_ptr<cv::VideoWriter> writer_;
-  int frames_ = 0;
+  std::unique_ptr<sim::VideoFile> file_;
+  bool is_whole_ = true;
 };
 
 /// All videos are opened by this function. By default FFmpeg guesses formats: it decodes text as
