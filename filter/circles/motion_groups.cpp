@@ -242,8 +242,8 @@ double PlaneSums::evidence_of(const PlanePrior& prior) const {
   const double level_A = count + level_P;
   const double explained =
       left.row(0).squaredNorm() / level_A + (T.array() * (A.inverse() * T).array()).sum();
-  return -0.5 * (left2 - explained) -
-         0.5 * kValues * std::log(level_A * A.determinant() / (level_P * slope_P * slope_P));
+  const double spread = level_A * A.determinant() / (level_P * slope_P * slope_P);
+  return -0.5 * (left2 - explained + kValues * double{std::log(static_cast<float>(spread))});
 }
 
 }  // namespace lcs

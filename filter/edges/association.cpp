@@ -140,9 +140,6 @@ void Association::find_pairs(const Chi& chi, const Tracks& predicted) {
 Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> others,
                                           const PairColumns& pairs) {
   const double near = parameters_.neighbour_reach_px, far2_px2 = kFar * kFar * near * near;
-  refill_column(voices_, others.size());
-  refill_column(voice_weights_, others.size());
-  refill_column(voice_clutter_, others.size());
   std::size_t count = 0;
   for (; count < others.size() && others[count].distance2 <= far2_px2; ++count) {
     voices_[count] = others[count].index;
@@ -186,6 +183,10 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
                              most_pairs_,
                              4 * frame.noise2_px2,
                              static_cast<float>(parameters_.step_share * parameters_.step_share)};
+  const auto voices = static_cast<std::size_t>(parameters_.neighbours);
+  refill_column(voices_, voices);
+  refill_column(voice_weights_, voices);
+  refill_column(voice_clutter_, voices);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (counts_[c] == 0) continue;

@@ -171,7 +171,7 @@ MotionField EdgeExpert::corrected(const MotionField& field, bool started) {
   const std::size_t count = asked_.size();
   asked_.resize(count + kLanes);
   misses_.make(count);
-  const double variance_m2ps2 = velocity_error_.covariance().trace() / 3;
+  const auto variance_m2ps2 = static_cast<float>(velocity_error_.covariance().trace() / 3);
   track_loops().misses(frame_of(field), predicted_.columns.data(), sightings(), asked_.data(),
                        count, started, variance_m2ps2, misses_.data());
   const MotionFix off =
@@ -182,8 +182,8 @@ MotionField EdgeExpert::corrected(const MotionField& field, bool started) {
   for (std::size_t i = 0; i < count; ++i) {
     const int c = asked_[i];
     const auto t = static_cast<std::size_t>(track_of_[c]);
-    misses_[kOffX][i] = x_px_[c] - predicted_.at(kStaticX, t);
-    misses_[kOffY][i] = y_px_[c] - predicted_.at(kStaticY, t);
+    misses_[kOffX][i] = x_px_[c] - predicted_.columns[kStaticX][t];
+    misses_[kOffY][i] = y_px_[c] - predicted_.columns[kStaticY][t];
   }
   return right;
 }

@@ -86,7 +86,7 @@ class EdgeExpert {
   Tracks tracks_;                         // of the last frame; tracks with a corner first, by chi
   Tracks predicted_, other_;              // the same, predicted to this frame
   std::vector<int> asked_;                // corners whose tracks may correct the motion
-  Columns<double, kMissColumns> misses_;  // of these
+  Columns<float, kMissColumns> misses_;  // of these
   std::vector<int> kept_;                 // whether a corner's track was continued
   std::vector<float> off2_px2_, shown_;
   std::vector<Coupling::Node> nodes_;

@@ -19,7 +19,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Lower triangle of a Cholesky factor, row by row; zeros where the matrix is singular.
-std::array<double, 21> root_of(const Matrix6& covariance) {
+std::array<float, 21> root_of(const Matrix6& covariance) {
   std::array<double, 21> root{};
   const auto at = [&](int row, int column) -> double& {
     return root[row * (row + 1) / 2 + column];
@@ -35,13 +35,15 @@ std::array<double, 21> root_of(const Matrix6& covariance) {
       at(row, column) = entry / at(column, column);
     }
   }
-  return root;
+  std::array<float, 21> rounded{};
+  std::ranges::copy(root, rounded.begin());
+  return rounded;
 }
 
 }  // namespace
 
 MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
-                          const double* const* misses, std::size_t count,
+                          const float* const* misses, std::size_t count,
                           const Eigen::Matrix3d& velocity_covariance) {
   const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   Matrix6 prior = Matrix6::Zero();  // not inverted: 0 if the motion is exact
@@ -51,8 +53,9 @@ MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
   Vector6 fix = Vector6::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     NormalSums sums;
-    track_loops().normal_sums(misses, count, camera.focal_px, fix.data(), root_of(left_open).data(),
-                              sums);
+    const Eigen::Matrix<float, 6, 1> present = fix.cast<float>();
+    track_loops().normal_sums(misses, count, static_cast<float>(camera.focal_px), present.data(),
+                              root_of(left_open).data(), sums);
     Matrix6 information;
     for (int row = 0, entry = 0; row < 6; ++row) {
       for (int column = row; column < 6; ++column, ++entry) {
@@ -60,9 +63,13 @@ MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
       }
     }
     covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
+    const Vector6 before = fix;
     fix = covariance * Eigen::Map<const Vector6>(sums.pull);
-    // Wrong matches pull the first rounds far off; later rounds search closer.
-    left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
+    // Wrong matches pull the first rounds far off; later rounds search closer. None is needed once
+    // the fix moved less than the search narrows, in standard deviations.
+    const double open = std::pow(kFar, -2 * (iteration + 1));
+    if (iteration > 1 && (fix - before).dot(information * (fix - before)) < open) break;
+    left_open = covariance + prior * open;
   }
   // Places of a billion focal lengths overflow: then nothing is known about the motion.
   if (!fix.allFinite() || !covariance.allFinite()) {
@@ -71,7 +78,7 @@ MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 
-bool is_contradicted(const double* const* misses, std::size_t count) {
+bool is_contradicted(const float* const* misses, std::size_t count) {
   const Agreement sums = track_loops().agree(misses, count);
   return sums.stood >= 0.5 * sums.all && sums.left > kLeave * sums.stood;
 }

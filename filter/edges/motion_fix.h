@@ -26,13 +26,13 @@ struct MotionFix {
 /// \param misses of `TrackLoops::misses`.
 /// \param velocity_covariance prior covariance of the error of `told`'s velocity, (m/s)^2.
 MotionFix find_motion_fix(const Intrinsics& camera, const MotionField& told,
-                          const double* const* misses, std::size_t count,
+                          const float* const* misses, std::size_t count,
                           const Eigen::Matrix3d& velocity_covariance);
 
 /// Whether static tracks are at least half of all, and most of them left their predictions: then
 /// the motion is wrong.
 /// \param misses under the corrected motion.
-bool is_contradicted(const double* const* misses, std::size_t count);
+bool is_contradicted(const float* const* misses, std::size_t count);
 
 /// Estimates the lasting error of the given velocity. Its standard deviation is the estimator's
 /// (`EgoMotion::velocity_sigma_mps`), root sum square with a share of the speed.

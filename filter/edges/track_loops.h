@@ -91,9 +91,11 @@ enum MissColumn : std::uint8_t {
   kSpreadXx,  ///< px^2: covariance of the miss at the track's depth
   kSpreadXy,
   kSpreadYy,
-  kSxx,  ///< px^2: at any depth and velocity
+  kSpreadDet,  ///< px^4: its determinant, which its entries would give with a large error
+  kSxx,        ///< px^2: at any depth and velocity
   kSxy,
   kSyy,
+  kSDet,
   kVoice,      ///< weight: tracks of one body are off together; 0 for none
   kStands,     ///< chance that the point is static
   kOtherwise,  ///< 1/px^2: density of the corner if not static, times 1 - `kStands`
@@ -132,8 +134,8 @@ struct TrackLoops {
   /// \param started whether the tracks have a motion.
   /// \param velocity_variance_m2ps2 of the told velocity, on an axis.
   void (*misses)(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
-                 const int* asked, std::size_t count, bool started, double velocity_variance_m2ps2,
-                 double* const* misses);
+                 const int* asked, std::size_t count, bool started, float velocity_variance_m2ps2,
+                 float* const* misses);
   /// (12) to (17): the tracks after their sightings, corner by corner. A corner of which no track
   /// is left starts a track. \param kept 0 for these corners; padded.
   Misses (*see)(const TrackFrame& frame, const float* const* predicted, const Sightings& seen,
@@ -151,14 +153,14 @@ struct TrackLoops {
   /// static point seen in the last frame only, px^2; padded.
   void (*off_segment)(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
                       std::size_t count, float* off2_px2);
-  /// Sums of the equations of (9) for the turn and the velocity. Takes four misses at once; behind
-  /// them must be misses of voice 0.
+  /// Sums of the equations of (9) for the turn and the velocity. Behind the misses must be some of
+  /// voice 0.
   /// \param fix present estimate.
   /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
-  void (*normal_sums)(const double* const* misses, std::size_t count, double focal_px,
-                      const double* fix, const double* root, NormalSums& sums);
+  void (*normal_sums)(const float* const* misses, std::size_t count, float focal_px,
+                      const float* fix, const float* root, NormalSums& sums);
   /// How many static tracks left their predictions, by their misses.
-  Agreement (*agree)(const double* const* misses, std::size_t count);
+  Agreement (*agree)(const float* const* misses, std::size_t count);
 };
 
 /// The loops by the instructions that all machines have.

@@ -383,16 +383,6 @@ LCS_INLINE Points gathered(const float* const* tracks, const Ints& track) {
           gather(tracks[kDepthVariance], track)};
 }
 
-/// Half of the lanes, in double precision.
-template <int kFirst>
-LCS_INLINE Doubles half(const Floats& values) {
-  return __builtin_convertvector(
-      __builtin_shufflevector(values, values, kFirst, kFirst + 1, kFirst + 2, kFirst + 3), Doubles);
-}
-LCS_INLINE void store(const Doubles& values, double* to) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
-
 /// The corners' tracks that are left, and the lanes of which a track is.
 struct Continued {
   Ints track, valid;
@@ -402,50 +392,18 @@ LCS_INLINE Continued continued(const Sightings& seen, std::size_t i, std::size_t
   return {valid ? track : Ints{}, valid};
 }
 
-/// Half of the lanes of misses.
-template <int kFirst>
-LCS_INLINE void store_misses(const TrackFrame& frame, const Points& point, const Floats& x,
-                             const Floats& y, const Places& by_depth, const Floats& w,
-                             const Floats& w_variance, const Floats& voice, const Floats& stands,
-                             const Floats& otherwise, double velocity_variance_m2ps2, std::size_t i,
-                             double* const* misses) {
-  const double f = frame.focal_px, dt = frame.dt_s, noise2 = frame.noise2_px2;
-  const Doubles place_x = half<kFirst>(point.x), place_y = half<kFirst>(point.y);
-  const Doubles g_x = half<kFirst>(point.g_x), g_y = half<kFirst>(point.g_y);
-  const Doubles k_x = half<kFirst>(by_depth.x), k_y = half<kFirst>(by_depth.y);
-  const Doubles C = half<kFirst>(point.C);
-  const Doubles spread_xx = half<kFirst>(point.V_xx) + noise2 + C * g_x * g_x;
-  const Doubles spread_xy = half<kFirst>(point.V_xy) + C * g_x * g_y;
-  const Doubles spread_yy = half<kFirst>(point.V_yy) + noise2 + C * g_y * g_y;
-  // The effect of a change of velocity on a point is as uncertain as the point's depth.
-  const Doubles moved = f * f * dt * dt * velocity_variance_m2ps2 * half<kFirst>(w_variance);
-  const Doubles S_xx = spread_xx + k_x * k_x + moved, S_xy = spread_xy + k_x * k_y;
-  const Doubles S_yy = spread_yy + k_y * k_y + moved;
-  // The precision across a segment of a million pixels is lost in rounding.
-  const auto is_sure = S_xx * S_yy - S_xy * S_xy > 1e-12 * (S_xx + S_yy) * (S_xx + S_yy);
-  const Doubles one = Doubles{} + 1.0, none = {};
-  store((place_x - double{frame.centre_x_px}) / f, misses[kRayX] + i);
-  store((place_y - double{frame.centre_y_px}) / f, misses[kRayY] + i);
-  store(half<kFirst>(w) * dt, misses[kMotion_s] + i);
-  store(half<kFirst>(x) - place_x, misses[kOffX] + i);
-  store(half<kFirst>(y) - place_y, misses[kOffY] + i);
-  store(is_sure ? spread_xx : one, misses[kSpreadXx] + i);
-  store(is_sure ? spread_xy : none, misses[kSpreadXy] + i);
-  store(is_sure ? spread_yy : one, misses[kSpreadYy] + i);
-  store(is_sure ? S_xx : one, misses[kSxx] + i);
-  store(is_sure ? S_xy : none, misses[kSxy] + i);
-  store(is_sure ? S_yy : one, misses[kSyy] + i);
-  store(is_sure ? half<kFirst>(voice) : none, misses[kVoice] + i);
-  store(half<kFirst>(stands), misses[kStands] + i);
-  store(half<kFirst>(otherwise), misses[kOtherwise] + i);
+/// The determinant of A + v v^T, without the difference of two large numbers that its entries give.
+LCS_INLINE Floats widened(const Floats& determinant, const Floats& A_xx, const Floats& A_xy,
+                          const Floats& A_yy, const Places& v) {
+  return determinant + (A_yy * v.x * v.x - 2.0F * A_xy * v.x * v.y + A_xx * v.y * v.y);
 }
 
 void misses(const TrackFrame& frame, const float* const* tracks, const Sightings& seen,
-            const int* asked, std::size_t count, bool started, double velocity_variance_m2ps2,
-            double* const* misses) {
-  const float anywhere = 1 / frame.reach_area_px2;
+            const int* asked, std::size_t count, bool started, float velocity_variance_m2ps2,
+            float* const* misses) {
+  const float anywhere = 1 / frame.reach_area_px2, per_depth = frame.focal_px * frame.dt_s;
   const float* const d = frame.displacement_m;
-  const Floats none = {};
+  const Floats none = {}, one = none + 1.0F;
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Ints valid = before(i, count), corner = valid ? load_ints(asked + i) : Ints{};
     const Ints track = gather(seen.track_of, corner);
@@ -470,10 +428,45 @@ void misses(const TrackFrame& frame, const float* const* tracks, const Sightings
     const Floats moves = chance_of(gather(tracks[kBelief], track));
     const Floats voice = valid ? 1.0F / gather(seen.crowd, corner) : none;
     const Floats otherwise = moves * moving + anywhere;
-    store_misses<0>(frame, point, x, y, by_depth, w, w_variance, voice, 1.0F - moves, otherwise,
-                    velocity_variance_m2ps2, i, misses);
-    store_misses<4>(frame, point, x, y, by_depth, w, w_variance, voice, 1.0F - moves, otherwise,
-                    velocity_variance_m2ps2, i + 4, misses);
+    const Floats V_xx = point.V_xx + frame.noise2_px2, V_yy = point.V_yy + frame.noise2_px2;
+    const Floats spread_xx = V_xx + point.C * point.g_x * point.g_x;
+    const Floats spread_xy = point.V_xy + point.C * point.g_x * point.g_y;
+    const Floats spread_yy = V_yy + point.C * point.g_y * point.g_y;
+    const Floats deviation = root_of(point.C);
+    const Floats spread_det =
+        widened(V_xx * V_yy - point.V_xy * point.V_xy, V_xx, point.V_xy, V_yy,
+                {deviation * point.g_x, deviation * point.g_y});
+    // The effect of a change of velocity on a point is as uncertain as the point's depth.
+    const Floats moved = per_depth * per_depth * velocity_variance_m2ps2 * w_variance;
+    const Floats wide_xx = spread_xx + moved, wide_yy = spread_yy + moved;
+    const Floats S_xx = wide_xx + by_depth.x * by_depth.x;
+    const Floats S_xy = spread_xy + by_depth.x * by_depth.y;
+    const Floats S_yy = wide_yy + by_depth.y * by_depth.y;
+    const Floats S_det = widened(spread_det + moved * (spread_xx + spread_yy + moved), wide_xx,
+                                 spread_xy, wide_yy, by_depth);
+    const Floats ray_x = (point.x - frame.centre_x_px) / frame.focal_px;
+    const Floats ray_y = (point.y - frame.centre_y_px) / frame.focal_px;
+    // The precision across a segment of a million pixels is lost in rounding. The squares of a place
+    // at a thousand focal lengths, where no corner is seen, could overflow.
+    const Floats ray2 = ray_x * ray_x + ray_y * ray_y;
+    const Ints is_sure = (S_det > 1e-12F * (S_xx + S_yy) * (S_xx + S_yy)) &
+                         (1e-12F * ray2 * ray2 < 1.0F);
+    store(is_sure ? ray_x : none, misses[kRayX] + i);
+    store(is_sure ? ray_y : none, misses[kRayY] + i);
+    store(is_sure ? w * frame.dt_s : none, misses[kMotion_s] + i);
+    store(is_sure ? x - point.x : none, misses[kOffX] + i);
+    store(is_sure ? y - point.y : none, misses[kOffY] + i);
+    store(is_sure ? spread_xx : one, misses[kSpreadXx] + i);
+    store(is_sure ? spread_xy : none, misses[kSpreadXy] + i);
+    store(is_sure ? spread_yy : one, misses[kSpreadYy] + i);
+    store(is_sure ? spread_det : one, misses[kSpreadDet] + i);
+    store(is_sure ? S_xx : one, misses[kSxx] + i);
+    store(is_sure ? S_xy : none, misses[kSxy] + i);
+    store(is_sure ? S_yy : one, misses[kSyy] + i);
+    store(is_sure ? S_det : one, misses[kSDet] + i);
+    store(is_sure ? voice : none, misses[kVoice] + i);
+    store(1.0F - moves, misses[kStands] + i);
+    store(otherwise, misses[kOtherwise] + i);
   }
 }
 
@@ -664,79 +657,73 @@ void off_segment(const TrackFrame& frame, const float* const* tracks, const Sigh
   }
 }
 
-void normal_sums(const double* const* misses, std::size_t count, double focal_px, const double* fix,
-                 const double* root, NormalSums& sums) {
-  Doubles information[21] = {}, pull[6] = {};
-  for (std::size_t k = 0; k < count; k += 4) {
-    const Doubles hx = load(misses[kRayX] + k), hy = load(misses[kRayY] + k);
-    const Doubles motion = load(misses[kMotion_s] + k) * focal_px;
-    const double f = focal_px;
-    const Doubles J[2][6] = {
-        {f * hx * hy, -f * (1.0 + hx * hx), f * hy, -motion, Doubles{}, motion * hx},
-        {f * (1.0 + hy * hy), -f * hx * hy, -f * hx, Doubles{}, -motion, motion * hy}};
-    const Doubles off[2] = {load(misses[kOffX] + k), load(misses[kOffY] + k)};
-    Doubles left[2] = {off[0], off[1]};
+void normal_sums(const float* const* misses, std::size_t count, float focal_px, const float* fix,
+                 const float* root, NormalSums& sums) {
+  Floats information[21] = {}, pull[6] = {};
+  for (std::size_t k = 0; k < count; k += kLanes) {
+    const Floats hx = load(misses[kRayX] + k), hy = load(misses[kRayY] + k);
+    const Floats motion = load(misses[kMotion_s] + k) * focal_px;
+    const float f = focal_px;
+    const Floats J[2][6] = {
+        {f * hx * hy, -f * (1.0F + hx * hx), f * hy, -motion, Floats{}, motion * hx},
+        {f * (1.0F + hy * hy), -f * hx * hy, -f * hx, Floats{}, -motion, motion * hy}};
+    const Floats off[2] = {load(misses[kOffX] + k), load(misses[kOffY] + k)};
+    Floats left[2] = {off[0], off[1]};
     // Covariance S of the residual; T adds the covariance of the fix, J root (J root)^T.
-    const Doubles S_xx = load(misses[kSxx] + k), S_xy = load(misses[kSxy] + k);
-    const Doubles S_yy = load(misses[kSyy] + k);
-    Doubles T_xx = S_xx, T_xy = S_xy, T_yy = S_yy;
+    const Floats S_xx = load(misses[kSxx] + k), S_xy = load(misses[kSxy] + k);
+    const Floats S_yy = load(misses[kSyy] + k), S_det = load(misses[kSDet] + k);
+    Floats T_xx = S_xx, T_xy = S_xy, T_yy = S_yy, T_det = S_det;
     for (int column = 0; column < 6; ++column) {
-      Doubles spread[2] = {};
+      Places spread = {};
       for (int row = column; row < 6; ++row) {
-        const double entry = root[row * (row + 1) / 2 + column];
-        spread[0] += J[0][row] * entry;
-        spread[1] += J[1][row] * entry;
+        const float entry = root[row * (row + 1) / 2 + column];
+        spread.x += J[0][row] * entry;
+        spread.y += J[1][row] * entry;
       }
-      T_xx += spread[0] * spread[0];
-      T_xy += spread[0] * spread[1];
-      T_yy += spread[1] * spread[1];
+      T_det = widened(T_det, T_xx, T_xy, T_yy, spread);
+      T_xx += spread.x * spread.x;
+      T_xy += spread.x * spread.y;
+      T_yy += spread.y * spread.y;
       left[0] -= J[0][column] * fix[column];
       left[1] -= J[1][column] * fix[column];
     }
-    const Doubles T_det = T_xx * T_yy - T_xy * T_xy;
-    const Doubles distance2 =
-        (left[0] * left[0] * T_yy - 2.0 * left[0] * left[1] * T_xy + left[1] * left[1] * T_xx) /
+    const Floats distance2 =
+        (left[0] * left[0] * T_yy - 2.0F * left[0] * left[1] * T_xy + left[1] * left[1] * T_xx) /
         T_det;
-    const Doubles stands =
-        load(misses[kStands] + k) * exp_of(-0.5 * distance2) / (6.283185307179586 * root_of(T_det));
-    const Doubles weight =
+    const Floats stands =
+        load(misses[kStands] + k) * exp_of(-0.5F * distance2) / (kTwoPi * root_of(T_det));
+    const Floats weight =
         load(misses[kVoice] + k) * stands / (stands + load(misses[kOtherwise] + k));
-    const Doubles precision = weight / (S_xx * S_yy - S_xy * S_xy);
-    const Doubles P_xx = S_yy * precision, P_xy = -S_xy * precision, P_yy = S_xx * precision;
+    const Floats precision = weight / S_det;
+    const Floats P_xx = S_yy * precision, P_xy = -S_xy * precision, P_yy = S_xx * precision;
     for (int row = 0, entry = 0; row < 6; ++row) {
-      const Doubles weighed[2] = {P_xx * J[0][row] + P_xy * J[1][row],
-                                  P_xy * J[0][row] + P_yy * J[1][row]};
+      const Floats weighed[2] = {P_xx * J[0][row] + P_xy * J[1][row],
+                                 P_xy * J[0][row] + P_yy * J[1][row]};
       for (int column = row; column < 6; ++column, ++entry) {
         information[entry] += weighed[0] * J[0][column] + weighed[1] * J[1][column];
       }
       pull[row] += weighed[0] * off[0] + weighed[1] * off[1];
     }
   }
-  for (int i = 0; i < 21; ++i) {
-    sums.information[i] =
-        (information[i][0] + information[i][1]) + (information[i][2] + information[i][3]);
-  }
-  for (int i = 0; i < 6; ++i) {
-    sums.pull[i] = (pull[i][0] + pull[i][1]) + (pull[i][2] + pull[i][3]);
-  }
+  for (int i = 0; i < 21; ++i) sums.information[i] = double{total(information[i])};
+  for (int i = 0; i < 6; ++i) sums.pull[i] = double{total(pull[i])};
 }
 
-Agreement agree(const double* const* misses, std::size_t count) {
-  Doubles left = {}, stood = {}, all = {};
-  for (std::size_t k = 0; k < count; k += 4) {
-    const Doubles x = load(misses[kOffX] + k), y = load(misses[kOffY] + k);
-    const Doubles S_xx = load(misses[kSpreadXx] + k), S_xy = load(misses[kSpreadXy] + k);
-    const Doubles S_yy = load(misses[kSpreadYy] + k), det = S_xx * S_yy - S_xy * S_xy;
-    const Doubles distance2 = (x * x * S_yy - 2.0 * x * y * S_xy + y * y * S_xx) / det;
-    const Doubles stands = load(misses[kStands] + k);
-    const Doubles fits = stands * exp_of(-0.5 * distance2) / (6.283185307179586 * root_of(det));
-    const Doubles voice = load(misses[kVoice] + k), otherwise = load(misses[kOtherwise] + k);
+Agreement agree(const float* const* misses, std::size_t count) {
+  Floats left = {}, stood = {}, all = {};
+  for (std::size_t k = 0; k < count; k += kLanes) {
+    const Floats x = load(misses[kOffX] + k), y = load(misses[kOffY] + k);
+    const Floats S_xx = load(misses[kSpreadXx] + k), S_xy = load(misses[kSpreadXy] + k);
+    const Floats S_yy = load(misses[kSpreadYy] + k), det = load(misses[kSpreadDet] + k);
+    const Floats distance2 = (x * x * S_yy - 2.0F * x * y * S_xy + y * y * S_xx) / det;
+    const Floats stands = load(misses[kStands] + k);
+    const Floats fits = stands * exp_of(-0.5F * distance2) / (kTwoPi * root_of(det));
+    const Floats voice = load(misses[kVoice] + k), otherwise = load(misses[kOtherwise] + k);
     left += voice * stands * otherwise / (fits + otherwise);
     stood += voice * stands;
     all += voice;
   }
-  const auto total = [](const Doubles& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); };
-  return {total(left), total(stood), total(all)};
+  return {double{total(left)}, double{total(stood)}, double{total(all)}};
 }
 
 constexpr TrackLoops kTrackLoops = {rotate, predict,      expect,      densities,   misses, see,

@@ -1,7 +1,5 @@
 #include "filter/edges/tracks.h"
 
-#include <algorithm>
-
 namespace lcs {
 
 Eigen::Matrix2d Tracks::static_spread(std::size_t track, double noise2_px2) const {

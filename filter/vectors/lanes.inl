@@ -6,8 +6,6 @@
 #define LCS_INLINE inline __attribute__((always_inline))
 
 using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Doubles = double __attribute__((vector_size(4 * kLanes)));
-using Longs = std::int64_t __attribute__((vector_size(4 * kLanes)));
 using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
 namespace {
@@ -72,33 +70,6 @@ LCS_INLINE Floats exp_of(const Floats& argument) {
   p = p * r * r + r + 1.0F;
   const Ints power = (__builtin_convertvector(n, Ints) + 127) << 23;
   return p * (Floats)power;
-}
-
-LCS_INLINE Doubles root_of(const Doubles& x) {
-#ifdef __AVX2__
-  return (Doubles)_mm256_sqrt_pd((__m256d)x);
-#else
-  return Doubles{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]),
-                 __builtin_sqrt(x[3])};
-#endif
-}
-
-/// e^x, with a relative error below 2e-7, for -700 < x < 700; at the bounds beyond them.
-LCS_INLINE Doubles exp_of(const Doubles& argument) {
-  Doubles x = argument < -700.0 ? Doubles{} - 700.0 : argument;
-  x = x > 700.0 ? Doubles{} + 700.0 : x;
-  // 1.5 * 2^52 is added to round to an integer, whose bits are then the last ones.
-  const Doubles shifted = x * 1.4426950408889634 + 6755399441055744.0;
-  const Doubles n = shifted - 6755399441055744.0;
-  const Doubles r = x - n * 0.6931471805599453;
-  Doubles p = 1.9875691500e-4 * r + 1.3981999507e-3;
-  p = p * r + 8.3334519073e-3;
-  p = p * r + 4.1665795894e-2;
-  p = p * r + 1.6666665459e-1;
-  p = p * r + 5.0000001201e-1;
-  p = p * r * r + r + 1.0;
-  const Longs power = ((Longs)shifted + 1023) << 52;
-  return p * (Doubles)power;
 }
 
 /// ln(1 + t) for 0 <= t <= 1, by s = t / (2 + t) <= 1/3: 2 (s + s^3/3 + s^5/5 + ...).

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "filter/kinematics/geometry.h"
@@ -361,16 +362,17 @@ Track track_of(const Tracks& tracks, std::size_t index) {
   return track;
 }
 
-Columns<double, kMissColumns> columns_of(std::span<const Residual> residuals,
-                                         const Intrinsics& camera, double dt_s,
-                                         double velocity_variance_m2ps2) {
-  Columns<double, kMissColumns> misses;
+Columns<float, kMissColumns> columns_of(std::span<const Residual> residuals,
+                                        const Intrinsics& camera, double dt_s,
+                                        double velocity_variance_m2ps2) {
+  Columns<float, kMissColumns> misses;
   misses.make(residuals.size());
   const double per_depth_px_m = camera.focal_px * dt_s;
   for (std::size_t i = 0; i < residuals.size() + kLanes; ++i) {
     for (std::size_t column = 0; column < kMissColumns; ++column) {
       const bool is_variance = column == kSxx || column == kSyy || column == kSpreadXx ||
-                               column == kSpreadYy || column == kOtherwise;
+                               column == kSpreadYy || column == kSpreadDet || column == kSDet ||
+                               column == kOtherwise;
       misses[column][i] = is_variance ? 1 : 0;
     }
     if (i >= residuals.size()) continue;
@@ -381,20 +383,25 @@ Columns<double, kMissColumns> columns_of(std::span<const Residual> residuals,
                             residual.inverse_depth_variance_pm2;
     if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
     const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
-    misses[kRayX][i] = h.x();
-    misses[kRayY][i] = h.y();
-    misses[kMotion_s][i] = residual.inverse_depth_pm * dt_s;
-    misses[kOffX][i] = residual.off_px.x();
-    misses[kOffY][i] = residual.off_px.y();
-    misses[kSpreadXx][i] = residual.covariance_px2(0, 0);
-    misses[kSpreadXy][i] = residual.covariance_px2(0, 1);
-    misses[kSpreadYy][i] = residual.covariance_px2(1, 1);
-    misses[kSxx][i] = S(0, 0);
-    misses[kSxy][i] = S(0, 1);
-    misses[kSyy][i] = S(1, 1);
-    misses[kVoice][i] = residual.voice;
-    misses[kStands][i] = residual.stands;
-    misses[kOtherwise][i] = residual.otherwise_ppx2;
+    const std::array<double, kMissColumns> row = {h.x(),
+                                                  h.y(),
+                                                  residual.inverse_depth_pm * dt_s,
+                                                  residual.off_px.x(),
+                                                  residual.off_px.y(),
+                                                  residual.covariance_px2(0, 0),
+                                                  residual.covariance_px2(0, 1),
+                                                  residual.covariance_px2(1, 1),
+                                                  residual.covariance_px2.determinant(),
+                                                  S(0, 0),
+                                                  S(0, 1),
+                                                  S(1, 1),
+                                                  S.determinant(),
+                                                  residual.voice,
+                                                  residual.stands,
+                                                  residual.otherwise_ppx2};
+    for (std::size_t column = 0; column < kMissColumns; ++column) {
+      misses[column][i] = static_cast<float>(row[column]);
+    }
   }
   return misses;
 }

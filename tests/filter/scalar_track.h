@@ -200,7 +200,7 @@ struct Residual {
   double otherwise_ppx2 = 0;  ///< density of the corner if not static, times 1 - `stands`
 };
 /// These as columns. \param velocity_variance_m2ps2 of the told velocity, on an axis.
-Columns<double, kMissColumns> columns_of(std::span<const Residual> residuals,
+Columns<float, kMissColumns> columns_of(std::span<const Residual> residuals,
                                          const Intrinsics& camera, double dt_s,
                                          double velocity_variance_m2ps2);
 

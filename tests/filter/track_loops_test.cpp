@@ -292,7 +292,7 @@ TEST(TrackLoops, DensitiesAreThoseOfTheFormula) {
 
 /// (8), by the covariances.
 TEST(TrackLoops, MissesAreThoseOfTheFormula) {
-  constexpr double kVariance_m2ps2 = 4e-4;
+  constexpr float kVariance_m2ps2 = 4e-4F;
   for (const bool started : {true, false}) {
     Followed one(8, true);
     const Corners corners(one);
@@ -300,7 +300,7 @@ TEST(TrackLoops, MissesAreThoseOfTheFormula) {
     const double anywhere = 1 / kUsual.reach_area_px2(kDt_s);
     for (const TrackLoops* way : kWays) {
       const Tracks predicted = predicted_by(*way, one);
-      Columns<double, kMissColumns> misses;
+      Columns<float, kMissColumns> misses;
       misses.make(count);
       const std::vector<int> asked = corners.asked(predicted, started);
       way->misses(one.frame(), predicted.columns.data(), corners.seen(), asked.data(),
@@ -381,12 +381,12 @@ TEST(TrackLoops, HaveTheSameBitsOnAnyMachine) {
     way->off_segment(one.frame(), predicted.columns.data(), corners.seen(), count, off2.data());
     state.insert(state.end(), shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(count));
     state.insert(state.end(), off2.begin(), off2.begin() + static_cast<std::ptrdiff_t>(count));
-    Columns<double, kMissColumns> misses;
+    Columns<float, kMissColumns> misses;
     misses.make(count);
     const std::vector<int> asked = corners.asked(predicted, true);
     way->misses(one.frame(), predicted.columns.data(), corners.seen(), asked.data(),
-                asked.size() - kLanes, true, 4e-4, misses.data());
-    const std::vector<double> fix(6, 1e-3), root(21, 1e-3);
+                asked.size() - kLanes, true, 4e-4F, misses.data());
+    const std::vector<float> fix(6, 1e-3F), root(21, 1e-3F);
     NormalSums sum;
     way->normal_sums(misses.data(), asked.size() - kLanes, 400, fix.data(), root.data(), sum);
     const Agreement agreement = way->agree(misses.data(), asked.size() - kLanes);

@@ -1,7 +1,6 @@
 #include "tools/comparators/flow_detectors.h"
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 

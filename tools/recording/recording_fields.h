@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 #include "filter/types/layers.h"
 #include "filter/types/paper_layers.h"

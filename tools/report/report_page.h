@@ -9,7 +9,6 @@
 /// detectors. Plain HTML; there may be thousands of pictures, so they are in a separate folder.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>

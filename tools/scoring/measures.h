@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>

@@ -2,7 +2,6 @@
 /// Scores how well squares cover the visible objects, by boxes; and the pixels that they cover.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
