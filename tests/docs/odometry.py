@@ -7,10 +7,10 @@
 
 Needs python3-opencv, with numpy. Four steps:
 
-Pairs. A frame forms a pair with the last frame of the pair before, once the camera is LEAST_M
-away from it (by the truth), else with the frame MOST_FRAMES earlier, or not at all. While the
-rover stands there are thus no pairs. The pictures are those that the run keeps: JPEG, at most
-640 px wide.
+Pairs. A frame forms a pair with the later frame of the pair before, or with the frame
+MOST_FRAMES earlier if that one is later still; but only if the camera's way between them is at
+least LEAST_M by the truth, so that there are no pairs while the rover stands. The pictures are
+those that the run keeps: JPEG, at most 640 px wide.
 
 Matches. Pyramidal Lucas-Kanade follows the corners (FAST's) of the later frame back to the
 earlier one, frame by frame, from where the told rotation puts them; then once more across the
