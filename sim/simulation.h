@@ -3,7 +3,6 @@
 /// `Observation` per frame.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>

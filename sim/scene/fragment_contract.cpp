@@ -113,15 +113,14 @@ Wheel check_wheel(const mjsBody& base, mjsElement* joint, const SpecReader& read
     R = pose.R * R;
   }
   check_axis(joint, mjJNT_HINGE, R, Vector3d::UnitY(), reader);
-  mjsElement* const first = mjs_firstChild(body, mjOBJ_GEOM, 0);
-  const mjtGeom type = first ? mjs_asGeom(first)->type : mjGEOM_NONE;
-  if (type != mjGEOM_SPHERE && type != mjGEOM_CYLINDER && type != mjGEOM_ELLIPSOID) {
-    reader.refuse(first ? first : body->element,
-                  fmt::format("the first geom of the wheel with the joint '{}' tells its radius, "
-                              "and it {}; give it a sphere, cylinder or ellipsoid first",
-                              name_of(joint), first ? "has another type" : "has none"));
+  mjsElement* round = mjs_firstChild(body, mjOBJ_GEOM, 0);
+  while (round && !is_round(mjs_asGeom(round)->type)) round = mjs_nextChild(body, round, 0);
+  if (!round) {
+    constexpr const char* kNone =
+        "the wheel of '{}' has no sphere, cylinder or ellipsoid; give it one";
+    reader.refuse(body->element, fmt::format(kNone, name_of(joint)));
   }
-  wheel.radius_m = mjs_asGeom(first)->size[0];
+  wheel.radius_m = mjs_asGeom(round)->size[0];
   return wheel;
 }
 

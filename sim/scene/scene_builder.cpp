@@ -200,6 +200,9 @@ ComposedScene compose(const Scenario& scenario) {
       add_ground(scene, *scenario.ground, scenario.ego.start_m, drawn.empty() ? 0 : drawn.front());
     }
     const Fragment rover = rover_fragment(scenario.ego, composed.reader);
+    // a rover that is made for an implicit integrator may be unstable with Euler's
+    int& integrator = scene.option.integrator;
+    if (integrator == mjINT_EULER) integrator = rover.spec->option.integrator;
     add_camera(attach(scene, rover, kEgoPrefix), scenario.camera);
     if (rover.is_frozen) {
       composed.frozen.push_back(fmt::format("the rover keeps the pose '{}'", scenario.ego.pose));

@@ -45,7 +45,13 @@ void prepare(Element& root, SpecReader::Part part) {
     }
   }
   if (part == SpecReader::Part::fragment) {
-    remove_sections(root, {"option", "size", "visual", "statistic"});
+    remove_sections(root, {"size", "visual", "statistic"});
+    for (Element* o = root.FirstChildElement("option"); o; o = o->NextSiblingElement("option")) {
+      const std::string integrator = xml::attribute(*o, "integrator");
+      while (o->FirstAttribute()) o->DeleteAttribute(o->FirstAttribute()->Name());
+      o->DeleteChildren();
+      if (!integrator.empty()) o->SetAttribute("integrator", integrator.c_str());
+    }
   }
   check_limits(root);
   check_styles(root);

@@ -75,6 +75,11 @@ class SpecReader {
   std::vector<std::string> warnings_;
 };
 
+/// Whether a geom of this type rolls; its radius is the first of its sizes.
+inline bool is_round(int type) {
+  return type == mjGEOM_SPHERE || type == mjGEOM_CYLINDER || type == mjGEOM_ELLIPSOID;
+}
+
 /// The name of an element; "" without one.
 std::string_view name_of(const mjsElement* element);
 

@@ -36,6 +36,11 @@ int actuator(const Model& model, const char* name) {
   return model.id(mjOBJ_ACTUATOR, std::string(kEgoPrefix) + name);
 }
 
+/// Sets the rate of a joint with a velocity actuator, whose own rate is larger by its gear.
+void command_rate(Model& model, int actuator, double rate) {
+  model.d().ctrl[actuator] = model.m().actuator_gear[6 * actuator] * rate;
+}
+
 /// Two slides along W's x and y and a hinge about z, each with a stiff velocity actuator.
 class HolonomicRover : public Rover {
  public:
@@ -56,7 +61,7 @@ class HolonomicRover : public Rover {
 
   PlanarVelocity command(Model& model, std::int64_t t_ns) override {
     const std::array<double, 3> velocity = joint_rates(model, t_ns);
-    for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
+    for (std::size_t i = 0; i < 3; ++i) command_rate(model, actuators_[i], velocity[i]);
     return in_rover(model, velocity);
   }
 
@@ -111,7 +116,9 @@ class WheeledRover : public Rover {
       const int joint = m.actuator_trnid[2 * i];
       wheels_.push_back({i, m.jnt_dofadr[joint], is_right});
       const int body = m.jnt_bodyid[joint];
-      radius_m_ = m.geom_size[3 * m.body_geomadr[body]];
+      int geom = m.body_geomadr[body];
+      while (!is_round(m.geom_type[geom])) ++geom;
+      radius_m_ = m.geom_size[3 * geom];
       y_m[is_right] += place_in_base(m, body).y();
       ++count[is_right];
     }
@@ -143,7 +150,7 @@ class WheeledRover : public Rover {
 
   PlanarVelocity command(Model& model, std::int64_t t_ns) override {
     const PlanarVelocity v = command_.at(t_ns);
-    for (const Wheel& wheel : wheels_) model.d().ctrl[wheel.actuator] = rate_of(wheel, v);
+    for (const Wheel& wheel : wheels_) command_rate(model, wheel.actuator, rate_of(wheel, v));
     return v;
   }
 

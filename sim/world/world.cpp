@@ -242,7 +242,7 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
 /// Sets the physics that the readings rely on, and overrides the scene's options.
 void World::set_options() {
   mjOption& option = model_.m().opt;
-  option.integrator = mjINT_EULER;
+  if (option.integrator == mjINT_RK4) option.integrator = mjINT_EULER;
   option.timestep = std::min(option.timestep, kLongestStep_s);
   option.disableflags &= ~(mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
   option.disableflags |= mjDSBL_SENSOR;  // the IMU is calculated from the motion of its site
@@ -407,7 +407,7 @@ void World::note_load() {
     replaced(fmt::format("the scene's timestep of {:g} ms is replaced by {:g} ms",
                          1e3 * asked.timestep, 1e3 * kLongestStep_s));
   }
-  if (asked.integrator != mjINT_EULER) replaced("the scene's integrator is replaced by Euler's");
+  if (asked.integrator == mjINT_RK4) replaced("the integrator RK4 is replaced by Euler's");
   for (int flag = 0; flag < mjNDISABLE; ++flag) {
     if (!(asked.disableflags & ~model_.m().opt.disableflags & 1 << flag)) continue;
     replaced(fmt::format("the scene disables '{}', which a drive needs; it is enabled",

@@ -15,6 +15,7 @@
 #include "sim/scene/silhouette.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/files.h"
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 
@@ -510,6 +511,18 @@ TEST_F(OwnRover, IsNotBrakedByTheFloorThatItsFileLetsItTouch) {
 TEST_F(OwnRover, DrivesOnWheelsWhereItHasTheActuatorsForThem) {
   auto s = scenario(wheeled());
   EXPECT_NEAR(driven(s).p.x(), 1, 0.06) << "a twentieth is slip";
+  // also where what is seen of a wheel comes before what rolls
+  const Parts seen = with(wheeled(), "<geom type='ellipsoid'",
+                          "<geom type='box' size='.1 .02 .1' mass='0' contype='0' conaffinity='0'/>"
+                          "<geom type='ellipsoid'");
+  EXPECT_NEAR(driven(scenario(seen)).p.x(), 1, 0.06);
+  // also with gears
+  auto geared = wheeled();
+  for (const char* side : {"left", "right"}) {
+    const std::string joint = "joint='" + std::string(side) + "' ";
+    geared = with(geared, joint + "kv='2'", joint + "gear='3' kv='.3'");
+  }
+  EXPECT_NEAR(driven(scenario(geared)).p.x(), 1, 0.06);
   // also in a scene whose geoms have no contacts by default
   std::string mjcf = floor_with("");
   mjcf.insert(mjcf.find("<statistic"), "<default><geom contype='0' conaffinity='0'/></default>");
@@ -519,6 +532,23 @@ TEST_F(OwnRover, DrivesOnWheelsWhereItHasTheActuatorsForThem) {
   s.ego.phases[0].direction_rad = 1;
   EXPECT_NE(scenario_error([&] { World world(s); }).find("cannot drive sideways"),
             std::string::npos);
+}
+
+/// Light wheels with a stiff motor: Euler's steps of 2 ms are unstable.
+TEST_F(OwnRover, HasTheIntegratorOfItsFile) {
+  auto parts = wheeled();
+  for (const char* side : {"left", "right"}) {
+    const std::string name = side;
+    parts = with(parts, "<joint name='" + name + "' axis='0 1 0' armature='.01'/>",
+                 "<joint name='" + name + "' axis='0 1 0'/>");
+    parts = with(parts, "joint='" + name + "' kv='2'", "joint='" + name + "' kv='200'");
+  }
+  const auto stiff = scenario(parts);
+  EXPECT_THROW(driven(stiff), PhysicsError);
+  std::string mjcf = lcs::test::read(stiff.ego.drive_file);
+  mjcf.insert(mjcf.find("<worldbody>"), "<option integrator='implicitfast' timestep='.02'/>");
+  write("rover.xml", mjcf);
+  EXPECT_NEAR(driven(stiff).p.x(), 1, 0.06);
 }
 
 TEST_F(OwnRover, DrivesOnFourWheelsWithAnArmOnTop) {
@@ -596,7 +626,7 @@ TEST_F(OwnRover, IsRefusedWhereItBreaksTheContractNamingFileLineAndRemedy) {
   expect(with(wheeled(), "name='left' axis='0 1 0'", "name='left' axis='1 0 0'"), 6,
          {"<joint name=\"left\">", "the axis 0 1 0"});
   expect(with(wheeled(), "type='ellipsoid' size='.12 .03 .12'", "type='box' size='.1 .1 .1'"), 6,
-         {"'left' tells its radius", "another type"});
+         {"wheel of 'left'", "no sphere"});
   expect(with(with(wheeled(), "<site name='imu' pos='0 0 .2'/>", ""), "armature='.01'/>",
               "/><site name='imu'/>"),
          6, {"in a body that moves"});

@@ -32,16 +32,26 @@ bool names(const Comparison& comparison, const std::string& what) {
 
 // ---- The statistics
 
-TEST(StudentT, AgreesWithTheTables) {
-  // Two-sided 95 %, from a printed table.
+/// Student's t, from printed tables.
+TEST(Interval, IsTheOneOfTheTables) {
+  // Two-sided 95 %.
   const std::pair<int, double> table[] = {{1, 12.706}, {2, 4.303},  {4, 2.776},  {9, 2.262},
                                           {10, 2.228}, {15, 2.131}, {30, 2.042}, {1000, 1.962}};
-  for (const auto& [degrees, t] : table) EXPECT_NEAR(student_t_95(degrees), t, 0.0006) << degrees;
-  // Both tails, from a printed table.
-  EXPECT_NEAR(student_t_beyond(3.182, 3), 0.05, 2e-5);
-  EXPECT_NEAR(student_t_beyond(9.925, 2), 0.01, 1e-5);
-  EXPECT_NEAR(student_t_beyond(4.587, 10), 0.001, 1e-6);
-  EXPECT_EQ(student_t_beyond(0, 5), 1);
+  for (const auto& [degrees, t] : table) {
+    std::vector<double> values(static_cast<std::size_t>(degrees) + 1, 0.0);
+    values.back() = 1;
+    const Interval interval = interval_of(values);
+    ASSERT_EQ(interval.degrees_of_freedom, degrees);
+    EXPECT_NEAR(*interval.half / interval.error, t, 0.0006) << degrees;
+  }
+  // Both tails.
+  const auto beyond = [](double t, int degrees) {
+    return chance_beyond({.mean = t, .half = 1, .error = 1, .degrees_of_freedom = degrees}, 0);
+  };
+  EXPECT_NEAR(beyond(3.182, 3), 0.05, 2e-5);
+  EXPECT_NEAR(beyond(9.925, 2), 0.01, 1e-5);
+  EXPECT_NEAR(beyond(4.587, 10), 0.001, 1e-6);
+  EXPECT_EQ(beyond(0, 5), 1);
 }
 
 TEST(Interval, IsTheOneOfTheTextbook) {

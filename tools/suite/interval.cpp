@@ -16,7 +16,9 @@ namespace {
 constexpr double kConfidence = 0.95;
 
 Interval interval_with(double mean, double error, int degrees_of_freedom) {
-  return {mean, student_t_95(degrees_of_freedom) * error, error, degrees_of_freedom};
+  const boost::math::students_t law(degrees_of_freedom);
+  const double most = quantile(complement(law, (1 - kConfidence) / 2));
+  return {mean, most * error, error, degrees_of_freedom};
 }
 
 /// The square of the standard error of the mean of a sample of at least two values.
@@ -28,14 +30,6 @@ double squared_error(const std::vector<double>& values, double mean) {
 }
 
 }  // namespace
-
-double student_t_beyond(double t, int degrees_of_freedom) {
-  return 2 * cdf(complement(boost::math::students_t(degrees_of_freedom), t));
-}
-
-double student_t_95(int degrees_of_freedom) {
-  return quantile(complement(boost::math::students_t(degrees_of_freedom), (1 - kConfidence) / 2));
-}
 
 Interval interval_of(const std::vector<double>& values) {
   const double mean = scoring::mean(values).value();
@@ -70,7 +64,8 @@ double chance_beyond(const Interval& interval, double least) {
   const double beyond = std::abs(interval.mean) - least;
   if (!interval.half || beyond <= 0) return 1;
   if (interval.error == 0) return 0;
-  return student_t_beyond(beyond / interval.error, interval.degrees_of_freedom);
+  const boost::math::students_t law(interval.degrees_of_freedom);
+  return 2 * cdf(complement(law, beyond / interval.error));
 }
 
 std::vector<bool> real_among(const std::vector<double>& chances) {

@@ -8,13 +8,6 @@
 
 namespace lcs::suite {
 
-/// The probability that |t| exceeds `t`, for Student's t. \param t >= 0. \param degrees_of_freedom
-/// >= 1.
-double student_t_beyond(double t, int degrees_of_freedom);
-
-/// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1.
-double student_t_95(int degrees_of_freedom);
-
 /// A mean with its 95 % confidence interval, which assumes normally distributed values.
 struct Interval {
   double mean = 0;
