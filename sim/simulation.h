@@ -3,6 +3,7 @@
 /// `Observation` per frame.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
