@@ -36,7 +36,7 @@ void move_as_static(Edge& edge, const Intrinsics& camera, const MotionField& fie
 
 }  // namespace
 
-// rule 2
+// rule velocity
 /// (2): the depth at the end of the frame, and its deviation.
 void StepEdges::advance_depth(Edge& edge, const MotionField& field) {
   const double before = edge.depth_ratio;
@@ -55,9 +55,9 @@ void StepEdges::see_depth(Edge& edge, double residual_px, double step_px,
   edge.depth_ratio = std::clamp(edge.depth_ratio + gain * residual_px, 0.0, field.max_ratio());
   edge.depth_ratio_sigma = std::sqrt(variance * (1 - gain * step_px));
 }
-// end of rule 2
+// end of rule velocity
 
-// rule 3
+// rule gate
 /// (6): variances of a corner about the prediction, along the motion and across, px^2.
 Vec2 StepEdges::variance_px2(const Edge& edge, const MotionField& field) const {
   const double step_px = field.reference_speed(edge.rotated) * field.dt_s();
@@ -75,9 +75,9 @@ double StepEdges::distance2(const Edge& edge, const Vec2& x, const MotionField& 
   const double ahead = off.dot(along), across = cross(along, off);
   return ahead * ahead / variance.x() + across * across / variance.y();
 }
-// end of rule 3
+// end of rule gate
 
-// rule 4
+// rule signatures
 /// (7), ln B: of the signature of an earlier sighting and of a corner; absent if they are no pair,
 /// 0 without signatures.
 std::optional<double> StepEdges::likeness(const Signature* before, int corner,
@@ -108,9 +108,61 @@ void StepEdges::remember(const BothKinds<Edge>& edges, const Chi& chi) {
   }
   look_of_edge_ = std::move(looks);
 }
-// end of rule 4
+// end of rule signatures
 
-// rule 5
+// rule coupling
+/// (18), (19): the trust above Tr_c is taken for the log odds of an edge's own kind. A corner whose
+/// edge is new tells nothing.
+const BothKinds<Edge>& StepEdges::believed(const BothKinds<Edge>& edges, const Chi& chi,
+                                           const MotionField& field) {
+  around_.build(chi.locations, ours_.neighbour_reach_px, ours_.neighbours);
+  const double noise2_px2 = ours_.noise_px * ours_.noise_px;
+  nodes_.clear();
+  std::unordered_map<int, std::size_t> of_source;
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    of_source[chi.sources[c]] = c;
+    nodes_.push_back({chi.locations[c], 0, Vec2::Zero(), 2 * noise2_px2, false});
+  }
+  for (const auto* kind : {&edges.normal, &edges.rebel}) {
+    for (const Edge& edge : *kind) {
+      if (edge.corner < 0 || (edge.age == 0 && !edge.rebel)) continue;
+      Coupling::Node& node = nodes_[of_source[edge.corner]];
+      const double sure = edge.trust - trust_.critical;
+      node.log_odds = edge.rebel ? sure : -sure;
+      node.step_px = node.place_px - edge.rotated;
+      node.tells = true;
+    }
+  }
+  const std::vector<double>& beliefs = coupling_.settle(
+      nodes_, around_, noise2_px2, std::min(ours_.coupling, ours_.most_log_odds(field.dt_s())));
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    result_.verdicts[c] = beliefs[c] > 0    ? Verdict::rebel
+                          : nodes_[c].tells ? Verdict::normal
+                                            : Verdict::pending;
+  }
+  believed_.normal.clear();
+  believed_.rebel.clear();
+  for (const auto* kind : {&edges.normal, &edges.rebel}) {
+    for (Edge edge : *kind) {
+      const std::size_t c = edge.corner >= 0 ? of_source[edge.corner] : chi.size();
+      if (c < chi.size() && nodes_[c].tells && edge.rebel != (beliefs[c] > 0)) {
+        edge.rebel = !edge.rebel;
+        if (edge.rebel) {
+          edge.origin = edge.rotated;
+          edge.speed = field.dt_s() > 0 ? nodes_[c].step_px.norm() / field.dt_s() : 0;
+          edge.angle = angle_of(nodes_[c].step_px);
+        } else {
+          move_as_static(edge, camera_, field);
+        }
+      }
+      (edge.rebel ? believed_.rebel : believed_.normal).push_back(edge);
+    }
+  }
+  return believed_;
+}
+// end of rule coupling
+
+// rule two_sightings
 /// Pairs of a corner seen once and a corner that no edge took, whose step is that of no static
 /// point. By (13) each order of magnitude of a mover's speed is equally likely.
 void StepEdges::find_seconds(const std::vector<Chain>& chains, const Chi& chi,
@@ -127,7 +179,7 @@ void StepEdges::find_seconds(const std::vector<Chain>& chains, const Chi& chi,
     });
   }
 }
-// end of rule 5
+// end of rule two_sightings
 
 void StepEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
   refill(match_of_edge_, edges, -1);

@@ -9,7 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "filter/edges/coupling.h"
 #include "filter/edges/edge_parameters.h"
+#include "filter/edges/neighbourhood.h"
 #include "filter/paper/paper_edges.h"
 #include "tests/study/rules.h"
 
@@ -20,7 +22,12 @@ class StepEdges {
   /// \param ours the numbers of the rules that are the default filter's.
   StepEdges(const Intrinsics& camera, const paper::PaperEdgeParameters& parameters,
             const EdgeParameters& ours, const TrustRanks& trust, const Rules& rules)
-      : camera_(camera), parameters_(parameters), ours_(ours), trust_(trust), rules_(rules) {}
+      : camera_(camera),
+        parameters_(parameters),
+        ours_(ours),
+        trust_(trust),
+        rules_(rules),
+        coupling_(ours) {}
 
   /// Predicts edges and rows of the last frame to this one.
   void predict(paper::EdgeLayer& layer, const MotionField& field) const;
@@ -30,6 +37,12 @@ class StepEdges {
                                           std::span<const int> groups,
                                           std::span<const IgnoreRegion> psi,
                                           const MotionField& field);
+
+  /// The rule of coupling, after `update`: the kinds of the edges by the beliefs of their
+  /// neighbours. Sets the verdicts of the last update anew.
+  /// \return valid until the next call.
+  const BothKinds<Edge>& believed(const BothKinds<Edge>& edges, const Chi& chi,
+                                  const MotionField& field);
 
  private:
   paper::Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
@@ -83,6 +96,10 @@ class StepEdges {
   std::vector<Chain> grown_;
   std::vector<Signature> grown_looks_;
   std::vector<Neighbour> near_;
+  Neighbourhood around_;
+  Coupling coupling_;
+  std::vector<Coupling::Node> nodes_;
+  BothKinds<Edge> believed_;
 };
 
 }  // namespace lcs::study

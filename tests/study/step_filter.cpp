@@ -21,6 +21,12 @@
 namespace lcs::study {
 namespace {
 
+Parameters parameters_of(const Rules& rules) {
+  Parameters ours;
+  if (!rules.scene) ours.edge.crossings = 0;
+  return ours;
+}
+
 /// Circles and squares of the paper form from edges with the paper's ranks of trust.
 const TrustRanks& trust_of(const Rules& rules, const Parameters& ours,
                            const paper::PaperParameters& papers) {
@@ -30,9 +36,10 @@ const TrustRanks& trust_of(const Rules& rules, const Parameters& ours,
 }  // namespace
 
 struct StepFilter::Impl {
-  Impl(const Intrinsics& c, int step)
+  Impl(const Intrinsics& c, const Rules& r)
       : camera(c),
-        rules(rules_of(step)),
+        rules(r),
+        ours(parameters_of(r)),
         line(c, ours.line),
         feedback(papers.circle.trust),
         step_edges(c, papers.edge, ours.edge, papers.circle.trust, rules),
@@ -108,10 +115,12 @@ void StepFilter::Impl::step_of_paper(std::span<const Eigen::Vector2f> corners_px
   const Chi& chi = line.collect(corners_px, signatures, psi);
   const std::vector<int>& groups = feedback.group(lambda, chi);
   const auto& [verdicts, reasons] = step_edges.update(layer, chi, groups, psi, field);
-  paper_circles.update(layer.edges, psi, field, circles_of_paper);
+  const BothKinds<Edge>& edges =
+      rules.coupling ? step_edges.believed(layer.edges, chi, field) : layer.edges;
+  paper_circles.update(edges, psi, field, circles_of_paper);
   paper_squares.update(circles_of_paper.circles, psi, field, squares_of_paper);
   assign_verdicts(chi, verdicts, reasons, {}, result);
-  set_layers(layer.edges, circles_of_paper, squares_of_paper, result.layers);
+  set_layers(edges, circles_of_paper, squares_of_paper, result.layers);
   alpha = layer.chains;
 }
 
@@ -180,9 +189,10 @@ void StepFilter::Impl::group(const Chi& chi, std::span<const Eigen::Vector2f> co
 void StepFilter::Impl::step_of_ours(std::span<const Eigen::Vector2f> corners_px,
                                     std::span<const Signature> signatures, EgoMotion motion,
                                     GapView* view) {
-  const MotionField told(camera, motion, rules.bounds ? ours.field : papers.field);
+  const MotionField told(camera, motion, rules.scene ? ours.field : papers.field);
   std::optional<MotionField> held;
-  const Chi& chi = line.collect(corners_px, signatures, {});
+  const Chi& chi =
+      line.collect(corners_px, rules.signatures ? signatures : decltype(signatures){}, {});
   const EdgeExpert::Result& tracked =
       rules.correction ? corrected(chi, told, motion, held) : step_tracks.step(chi, told);
   const MotionField& field = held ? *held : told;
@@ -202,7 +212,7 @@ const FrameResult& StepFilter::step(std::span<const Eigen::Vector2f> corners_px,
   const std::optional<EgoMotion> usable = it.intake.take(told, it.diagnostics);
   if (!usable) it.forget();
   EgoMotion motion = usable.value_or(EgoMotion{});
-  if (!it.rules.bounds) motion.ground.reset();
+  if (!it.rules.scene) motion.ground.reset();
   if (it.rules.hypotheses) {
     it.step_of_ours(corners_px, signatures, motion, view);
   } else {
@@ -211,7 +221,8 @@ const FrameResult& StepFilter::step(std::span<const Eigen::Vector2f> corners_px,
   return it.result;
 }
 
-StepFilter::StepFilter(const Intrinsics& camera, int step) : impl_(new Impl(camera, step)) {}
+StepFilter::StepFilter(const Intrinsics& camera, const Rules& rules)
+    : impl_(new Impl(camera, rules)) {}
 StepFilter::~StepFilter() = default;
 
 }  // namespace lcs::study

@@ -1,6 +1,6 @@
 /// \file
-/// A filter between the paper's and the default one: it has the rules of a step of the study in
-/// place of the paper's. Step 0 gives the bits of the preset `lab`, the last step those of
+/// A filter between the paper's and the default one: it has some rules of the default filter in
+/// place of the paper's. With none it gives the bits of the preset `lab`, with all those of
 /// `default`. Both filters' parts keep the numbers of their own presets.
 #pragma once
 
@@ -13,11 +13,10 @@ namespace lcs::study {
 
 class StepFilter {
  public:
-  /// \throws std::invalid_argument for an unknown step.
-  StepFilter(const Intrinsics& camera, int step);
+  StepFilter(const Intrinsics& camera, const Rules& rules);
   ~StepFilter();
 
-  /// Like `lcs::Filter::step`. Only the last step uses `view`.
+  /// Like `lcs::Filter::step`. Only the rule of radial movers uses `view`.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& told,
                           GapView* view);
@@ -27,10 +26,11 @@ class StepFilter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A step as a detector of a run.
+/// The same as a detector of a run.
 class StepDetector : public bench::Detector {
  public:
-  StepDetector(const Intrinsics& camera, int step) : filter_(camera, step), picture_(camera) {}
+  StepDetector(const Intrinsics& camera, const Rules& rules)
+      : filter_(camera, rules), picture_(camera) {}
 
   const FrameResult& step(const bench::DetectorInput& input) override {
     GapView* view = nullptr;

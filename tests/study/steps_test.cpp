@@ -30,7 +30,7 @@ void expect_same_as_the_filters(const std::string& scenario_file, const std::str
       scenario::load(LCS_SCENARIOS_DIR + scenario_file, {.sets = {"frames=" + frames}, .seed = {}});
   sim::Simulation simulation(scenario);
   const Intrinsics camera = bench::run_info(scenario, simulation).camera.value();
-  StepDetector first(camera, 0), last(camera, kLastStep);
+  StepDetector first(camera, rules_of(0)), last(camera, rules_of(kLastStep));
   bench::LcsDetector lab(camera, preset("lab")), ours(camera, preset("default"));
   std::vector<recording::FrameRecord> seen[4];
   std::vector<bench::DetectorRun> runs;
@@ -67,6 +67,10 @@ TEST(StepsOfTheStudy, EachStepAddsOneRule) {
   EXPECT_FALSE(rules_of(kLastStep - 1).radial);
   EXPECT_TRUE(rules_of(kLastStep).radial);
   EXPECT_THROW(rules_of(kLastStep + 1), std::invalid_argument);
+  EXPECT_TRUE(rules_named("velocity,gate,votes,").votes);
+  EXPECT_FALSE(rules_named("velocity,gate,votes,").coupling);
+  EXPECT_THROW(rules_named("votes,vote,"), std::invalid_argument);
+  EXPECT_THROW(rules_named("gate,"), std::invalid_argument);
 }
 
 }  // namespace
