@@ -236,7 +236,7 @@ circles and squares lie on objects. Three of its rules keep the recall of rebels
 
 * A rebel needs three sightings in line, each off the motion field by a margin. Slow movers and short sightings never get there.
 * The rule for an edge's velocity does not settle at the true value (`PaperVelocity` tests; [EQUATIONS.md](../EQUATIONS.md)). Edges at other
-  depths than Z_ref lose trust within three frames, and their corners start new rows.
+  depths than Z_ref lose trust within three frames, and their corners start new rows. Alone it costs little: step 2 below.
 * Corners are told apart by place alone. Where corners are dense, a corner of a mover supports a static edge nearby.
 
 {kept_section(PAGE.read_text())}
