@@ -73,9 +73,11 @@ ROWS = [
     ("radial", "movers along the line of sight: the default", "(27)-(30)",
      ["filter/radial", "filter/detect/gap_picture.h", "filter/detect/gap_picture.cpp"], []),
 ]
-# Sets of rules without those before them in the table.
+# Sets of rules without those before them in the table, and the worlds of train that they run in.
 SETS = ["no_psi,signatures", "signatures,hypotheses", "coupling,hypotheses",
         "signatures,coupling,hypotheses"]
+SET_WORLDS = [f"{family}_{seed}" for seed in range(1, 5) for family in (
+    "corridor", "garage", "room", "street", "warehouse", "yard")]
 FIGURES = ["F1", "precision", "recall", "false objects", "items"]
 
 
@@ -189,9 +191,16 @@ def steps_table(train, test, counts):
                   *FIGURES, "change of F1", "instructions a corner"], rows)
 
 
-def sets_table(runs):
+def sets_table(runs, of_steps):
+    """The table of SETS on some runs, between the first and the last step. of_steps: their rows."""
+    def of(step):
+        return cells([row for row in of_steps if row["run"] in map(str, runs)
+                      and int(row["step"]) == step])
+
     return table(["only these rules", *FIGURES],
-                 [[rules.replace(",", ", "), *cells(measured(runs, rules))] for rules in SETS])
+                 [["none", *of(0)],
+                  *([rules.replace(",", ", "), *cells(measured(runs, rules))] for rules in SETS),
+                  ["all", *of(len(ROWS) - 1)]])
 
 
 def main():
@@ -203,8 +212,9 @@ def main():
     options = parser.parse_args()
     train, test = runs_of(options.train), runs_of(options.test)
     counts = instructions([run for run in train if run.parts[-2] in COUNTED])
-    steps = steps_table(measured(train), measured(test), counts)
-    sets = sets_table(test)
+    on_train = measured(train)
+    steps = steps_table(on_train, measured(test), counts)
+    sets = sets_table([run for run in train if run.parts[-2] in SET_WORLDS], on_train)
     if options.print:
         print(steps, sets, sep="\n")
         return
