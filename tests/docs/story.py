@@ -3,6 +3,8 @@
 
     tests/docs/story.py [PHOTOGRAPHS]      after tools/run; takes about five minutes
 
+The section of the steps from the paper's rules to ours is kept: tests/study/study.py measures it.
+
 PHOTOGRAPHS is the folder of the 37 pictures of the paper's laboratory that its authors published with their
 program; without it the page has no row of them. Needs python3-opencv, for the pictures.
 """
@@ -122,6 +124,12 @@ def beside_the_paper(runs):
                   "over the corners of 5 frames", "items of the default"], rows)
 
 
+def kept_section(page):
+    """The section of tests/study/study.py on the page as it is."""
+    start = page.index("## From the paper's rules to ours")
+    return page[start:page.index("\n## ", start)].strip()
+
+
 def page(runs):
     lab, street = runs["lab"], runs["street"]
     frames = table(
@@ -228,8 +236,10 @@ circles and squares lie on objects. Three of its rules keep the recall of rebels
 
 * A rebel needs three sightings in line, each off the motion field by a margin. Slow movers and short sightings never get there.
 * The rule for an edge's velocity does not settle at the true value (`PaperVelocity` tests; [EQUATIONS.md](../EQUATIONS.md)). Edges at other
-  depths than Z_ref lose trust within three frames, and their corners start new rows.
+  depths than Z_ref lose trust within three frames, and their corners start new rows. Alone it costs little: step 2 below.
 * Corners are told apart by place alone. Where corners are dense, a corner of a mover supports a static edge nearby.
+
+{kept_section(PAGE.read_text())}
 
 ## What of the paper is in the default
 
