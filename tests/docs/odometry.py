@@ -2,7 +2,7 @@
 """Measures by how much the filter's verdicts help a visual odometry, which movers spoil.
 
     lcs suite --worlds test --count 40 --keep all --out out/odometry
-    python3 tests/docs/odometry.py out/odometry   # prints its tables as Markdown
+    python3 tests/docs/odometry.py out/odometry   # prints its table as Markdown; --full: all of it
     python3 tests/docs/odometry.py --self-test
 
 Needs python3-opencv, with numpy. Four steps:
@@ -326,6 +326,19 @@ def markdown(rows):
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
 
 
+def short_table(values, intervals):
+    """The main columns of three sets of corners."""
+    names = ["median (deg)", "90th percentile (deg)", "drift (%)", "many movers: 90th (deg)"]
+    rows = [["estimate", "corners", *names, "drift less than with all"]]
+    drifts, (low, high) = values["drift (%)"], intervals["drift (%)"]
+    for e, name in enumerate(ESTIMATES):
+        for s in [0, 1, len(SETS) - 1]:
+            less = f"{drifts[e, 0] - drifts[e, s]:.1f} ({low[e, s]:.1f} to {high[e, s]:.1f})"
+            rows.append([name if not s else "", SETS[s], *(f"{values[n][e, s]:.2f}" for n in names),
+                         less if s else "-"])
+    return markdown(rows)
+
+
 def tables(values, intervals):
     """Two tables: the figures; and how much less than all corners' they are, with intervals."""
     first = [["estimate", "corners", *values]]
@@ -341,7 +354,7 @@ def tables(values, intervals):
     return markdown(first) + "\n\n" + markdown(second)
 
 
-def report(runs):
+def report(runs, is_full):
     """Prints a sentence for README.md, the facts and the tables, of `measure`'s rows by run."""
     worlds = [rows for rows in runs if rows]
     rows = [row for world in worlds for row in world]
@@ -360,7 +373,7 @@ def report(runs):
           f"Without the rebels the drift is less by over 0.1 % of the path in "
           f"{sum(less > 0.001)} worlds, and more in {sum(less < -0.001)}. Too few corners are "
           f"left in {100 * none[1]:.1f} % of the pairs.\n")
-    print(tables(values, intervals))
+    print((tables if is_full else short_table)(values, intervals))
 
 
 def self_test():
@@ -395,6 +408,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__,
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("suite", nargs="?", type=pathlib.Path, help="kept with --keep all")
+    arguments.add_argument("--full", action="store_true", help="all sets of corners and intervals")
     arguments.add_argument("--self-test", action="store_true")
     options = arguments.parse_args()
     if options.self_test:
@@ -406,7 +420,7 @@ def main():
         runs = pool.map(measure, sorted(options.suite.glob("runs/*/seed*")), 1)
     if not any(runs):
         arguments.error(f"{options.suite} has no runs with pairs")
-    report(runs)
+    report(runs, options.full)
 
 
 if __name__ == "__main__":
