@@ -28,6 +28,56 @@ from numpy.typing import ArrayLike as _ArrayLike
 import typing
 from typing import Optional as _Optional, Union as _Union
 __all__: list[str] = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
+class Error(Exception):
+    """
+    An error as the program lcs prints it: the problem, its place, the remedy.
+    """
+class Verdict(enum.IntEnum):
+    """
+    The verdict on a corner.
+    """
+    IGNORED = ...
+    NORMAL = ...
+    PENDING = ...
+    REBEL = ...
+class Reason(enum.IntEnum):
+    """
+    Which of the filter's rules settled a corner's verdict (filter/types/reason.h).
+    """
+    ALPHA_BEND = ...
+    ALPHA_FIRST = ...
+    ALPHA_ON_FIELD = ...
+    ALPHA_SECOND = ...
+    ALPHA_TAKEN = ...
+    ALPHA_THIRD = ...
+    COMER = ...
+    FIRST_SIGHTING = ...
+    GOER = ...
+    INHERITED = ...
+    IN_PSI = ...
+    NORMAL_EDGE = ...
+    NORMAL_NEIGHBOURS = ...
+    NOT_FINITE = ...
+    NO_TIME = ...
+    OUTBID = ...
+    OUTSIDE = ...
+    REBEL_EDGE = ...
+    REBEL_NEIGHBOURS = ...
+    TOO_MANY = ...
+    UNKNOWN = ...
+    XI_1 = ...
+    XI_2 = ...
+    XI_3 = ...
+    XI_4 = ...
+    XI_5 = ...
+class Label(enum.IntEnum):
+    """
+    The truth of a corner (tools/scoring/SCORING.md).
+    """
+    FIXED = ...
+    INDISTINCT = ...
+    NONE = ...
+    REBEL = ...
 class Camera:
     """
     A pinhole with square pixels and no distortion: x right, y down, z forward, pixels with
@@ -79,77 +129,191 @@ class Camera:
         """
         px
         """
-class Detections:
+class Scenario:
     """
-    The answer of your own detector to a frame.
+    A scenario to simulate, or a recording: a YAML file of the form in scenarios/README.md.
     """
-    def __init__(self, rebels: numpy.typing.ArrayLike | None = None, *, boxes: numpy.typing.ArrayLike | None = None, ids: numpy.typing.ArrayLike | None = None, circles: numpy.typing.ArrayLike | None = None, masks: numpy.typing.ArrayLike | None = None) -> None:
+    @staticmethod
+    def from_yaml(text: str, *, file: str | os.PathLike[str] = ..., set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> Scenario:
         """
-        rebels: N bool, True for corners of the frame that move by themselves; None: no verdicts.
-        boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has left l and
-        right r. ids: M whole numbers from 0, which stay with their objects from frame to frame.
-        masks: in place of boxes, M x H x W bool: the pixels of each object.
-        circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are counted.
-        Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks places and the
-        size of masks against the camera.
+        A scenario from YAML text. file: a path that gives the name, and the folder from which relative paths
+        begin; it need not exist.
         """
-class Detector:
-    """
-    A detector of the bench: lcs, lcs:lab, lcs:cars, klt, dis (tools/comparators/README.md), or a
-    program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs run.
-    """
-    def __init__(self, scenario: Scenario, name: str = '', *, command: str = '', timeout: float = 30.0) -> None:
+    def __init__(self, file: str | os.PathLike[str], *, set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> None:
         """
-        name: of the detector; lcs if not given. With command: its name in results.
-        command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, s.
-        Raises ValueError for an unknown name, Error for a program that does not start.
+        Reads and checks the whole file.
+
+        set: values that replace the file's, as in lcs run --set: {"ego.speed": "0.7 m/s"}.
+        seed: replaces the file's.
+        Raises Error with file, line, problem and remedy. Warns of settings of the filter that have no
+        effect.
         """
-    def finish(self) -> list[str]:
+    def __repr__(self) -> str:
+        ...
+    @property
+    def camera(self) -> Camera:
+        ...
+    @property
+    def file(self) -> pathlib.Path:
+        ...
+    @property
+    def frames(self) -> int:
         """
-        Ends the program after the last frame. Returns remarks, a line each.
+        Number of frames; for a recording an upper bound.
         """
-    def step(self, frame: Frame) -> Result:
+    @property
+    def groups(self) -> list[str]:
         """
-        Processes the next frame of a scenario with the same camera; give all frames in order.
-        Raises Error for a program that ends or answers wrongly.
+        Groups of the scenario, such as "short".
         """
     @property
     def name(self) -> str:
-        ...
-class Error(Exception):
-    """
-    An error as the program lcs prints it: the problem, its place, the remedy.
-    """
-class Filter:
-    """
-    The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.
-    """
-    @typing.overload
-    def __init__(self, scenario: Scenario) -> None:
         """
-        With the scenario's camera, preset and settings.
-        """
-    @typing.overload
-    def __init__(self, camera: Camera, preset: str = 'default', *, set: collections.abc.Mapping[str, typing.Any] | None = None) -> None:
-        """
-        preset: default, lab or cars. set: parameters that replace the preset's, by the keys of
-        filter/parameters.cpp: {"circle.gap": 0.3}; angles in degrees.
-        Raises Error for an unknown preset, key or value, ValueError for an impossible camera.
-        """
-    def step(self, corners: numpy.typing.ArrayLike, motion: Motion, signatures: numpy.typing.ArrayLike | None = None, *, picture: numpy.typing.ArrayLike | None = None) -> Result:
-        """
-        Processes the next frame.
-
-        corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 uint8;
-        picture: height x width uint8, grey, without distortion. Bodies that approach at constant speed are
-        found only with pictures, and only by the preset default.
-        Raises TypeError or ValueError for arrays of another type or shape, and then ignores the frame.
-        Numbers that are not finite or out of range never raise: they are left out, see diagnostics.
+        The file's stem.
         """
     @property
-    def diagnostics(self) -> list[str]:
+    def purpose(self) -> str:
         """
-        Problems of the data so far, a line for each kind.
+        One line.
+        """
+    @property
+    def recorded(self) -> bool:
+        """
+        Whether the frames come from a recording instead of a simulation.
+        """
+    @property
+    def seed(self) -> int:
+        ...
+class Motion:
+    """
+    How the camera moved from the last frame to this one. Camera frame: x right, y down, z
+    forward.
+    """
+    @staticmethod
+    def between(T_WC_before: numpy.typing.ArrayLike, T_WC_now: numpy.typing.ArrayLike, dt: float) -> Motion:
+        """
+        Of two poses of the camera, 4 x 4, that are dt seconds apart.
+        """
+    def __init__(self, *, dt: float, rotation: numpy.typing.ArrayLike | None = None, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, up: numpy.typing.ArrayLike | None = None, height: float | None = None, unseen_turn: float = 0.0, velocity_sigma: float = 0.0) -> None:
+        """
+        dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its frame of now;
+        angular_velocity 3, rad/s, from the rotation where not given; up and height: the ground, see
+        there; unseen_turn in rad, velocity_sigma in m/s.
+        """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        3 float64, rad/s: mean body rate of the camera.
+        """
+    @property
+    def displacement(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        3 float64, m: of the camera since the last frame, in its frame of now.
+        """
+    @property
+    def dt(self) -> float:
+        """
+        Time since the last frame, s; 0 in the first one.
+        """
+    @property
+    def height(self) -> float | None:
+        """
+        m: of the camera above the ground; None if unknown.
+        """
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        3 x 3 float64: takes camera coordinates from the last frame to this one.
+        """
+    @property
+    def unseen_turn(self) -> float:
+        """
+        rad: standard deviation of the rotation's error while gyro readings are missing; else 0.
+        """
+    @property
+    def up(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        3 float64: unit normal of the ground, against gravity, in the camera's frame; None if unknown.
+        """
+    @property
+    def usable(self) -> bool:
+        """
+        Whether a filter can predict from the last frame by it. If not, the filter starts anew.
+        False for the first frame.
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        3 float64, m/s: mean velocity of the camera since the last frame, in its frame of now.
+        """
+    @property
+    def velocity_sigma(self) -> float:
+        """
+        m/s: standard deviation of the velocity's error; 0 if unknown.
+        """
+class Truth:
+    """
+    The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame has only labels;
+    its motion, depth, object_ids and poses raise ValueError.
+    """
+    def of(self, points: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        The rows of `corners` for other points, N x 2 in pixels, such as corners of your own detector.
+        """
+    @property
+    def T_WC(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        4 x 4 float64: takes camera coordinates to the world's (z up), m.
+        """
+    @property
+    def T_WO(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        K x 4 x 4 float64: takes coordinates of the object with that id to the world's; 0 is the world.
+        """
+    @property
+    def boxes(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        M x 4 float64: left, top, right, bottom of `objects`, pixel edges.
+        """
+    @property
+    def corners(self) -> numpy.ndarray:
+        """
+        A row for each of the frame's corners: label, radial, outline, object (its id; 0: the fixed world,
+        -1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,
+        static_motion_y (px: the same if the point were fixed).
+        """
+    @property
+    def depth(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        H x W float32: z-depth, m; inf where there is sky.
+        """
+    @property
+    def labels(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        N uint8, a Label for each of the frame's corners.
+        """
+    @property
+    def motion(self) -> Motion:
+        """
+        Motion since the last frame by the exact poses.
+        """
+    @property
+    def names(self) -> dict[int, str]:
+        """
+        The names of all objects by id.
+        """
+    @property
+    def object_ids(self) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        H x W int32: id of the object that a pixel shows; 0 the fixed setting, -1 sky and the rover.
+        """
+    @property
+    def objects(self) -> numpy.ndarray:
+        """
+        A row for each visible object: object (its id), left, top, right, bottom (pixel edges of its
+        visible part), visible_px, visible_fraction, moving.
         """
 class Frame:
     """
@@ -221,113 +385,25 @@ class Frame:
         """
         The truth of the frame; detectors must not use it.
         """
-class Label(enum.IntEnum):
+class Simulation:
     """
-    The truth of a corner (tools/scoring/SCORING.md).
+    The frames of a scenario, one after another. To be used by the thread that made it; other
+    threads run meanwhile. The same scenario and seed give the same bits.
     """
-    FIXED = ...
-    INDISTINCT = ...
-    NONE = ...
-    REBEL = ...
-class Motion:
-    """
-    How the camera moved from the last frame to this one. Camera frame: x right, y down, z
-    forward.
-    """
-    @staticmethod
-    def between(T_WC_before: numpy.typing.ArrayLike, T_WC_now: numpy.typing.ArrayLike, dt: float) -> Motion:
-        """
-        Of two poses of the camera, 4 x 4, that are dt seconds apart.
-        """
-    def __init__(self, *, dt: float, rotation: numpy.typing.ArrayLike | None = None, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, up: numpy.typing.ArrayLike | None = None, height: float | None = None, unseen_turn: float = 0.0, velocity_sigma: float = 0.0) -> None:
-        """
-        dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its frame of now;
-        angular_velocity 3, rad/s, from the rotation where not given; up and height: the ground, see
-        there; unseen_turn in rad, velocity_sigma in m/s.
-        """
-    def __repr__(self) -> str:
+    def __init__(self, scenario: Scenario) -> None:
+        ...
+    def __iter__(self) -> collections.abc.Iterator[Frame]:
+        ...
+    def __next__(self) -> Frame:
         ...
     @property
-    def angular_velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        3 float64, rad/s: mean body rate of the camera.
-        """
+    def scenario(self) -> Scenario:
+        ...
     @property
-    def displacement(self) -> numpy.typing.NDArray[numpy.float64]:
+    def warnings(self) -> list[str]:
         """
-        3 float64, m: of the camera since the last frame, in its frame of now.
+        Problems so far, a line each: the rover or an actor ran into something, fell, or tipped over.
         """
-    @property
-    def dt(self) -> float:
-        """
-        Time since the last frame, s; 0 in the first one.
-        """
-    @property
-    def height(self) -> float | None:
-        """
-        m: of the camera above the ground; None if unknown.
-        """
-    @property
-    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        3 x 3 float64: takes camera coordinates from the last frame to this one.
-        """
-    @property
-    def unseen_turn(self) -> float:
-        """
-        rad: standard deviation of the rotation's error while gyro readings are missing; else 0.
-        """
-    @property
-    def up(self) -> numpy.typing.NDArray[numpy.float64] | None:
-        """
-        3 float64: unit normal of the ground, against gravity, in the camera's frame; None if unknown.
-        """
-    @property
-    def usable(self) -> bool:
-        """
-        Whether a filter can predict from the last frame by it. If not, the filter starts anew.
-        False for the first frame.
-        """
-    @property
-    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        3 float64, m/s: mean velocity of the camera since the last frame, in its frame of now.
-        """
-    @property
-    def velocity_sigma(self) -> float:
-        """
-        m/s: standard deviation of the velocity's error; 0 if unknown.
-        """
-class Reason(enum.IntEnum):
-    """
-    Which of the filter's rules settled a corner's verdict (filter/types/reason.h).
-    """
-    ALPHA_BEND = ...
-    ALPHA_FIRST = ...
-    ALPHA_ON_FIELD = ...
-    ALPHA_SECOND = ...
-    ALPHA_TAKEN = ...
-    ALPHA_THIRD = ...
-    COMER = ...
-    FIRST_SIGHTING = ...
-    GOER = ...
-    INHERITED = ...
-    IN_PSI = ...
-    NORMAL_EDGE = ...
-    NORMAL_NEIGHBOURS = ...
-    NOT_FINITE = ...
-    NO_TIME = ...
-    OUTBID = ...
-    OUTSIDE = ...
-    REBEL_EDGE = ...
-    REBEL_NEIGHBOURS = ...
-    TOO_MANY = ...
-    UNKNOWN = ...
-    XI_1 = ...
-    XI_2 = ...
-    XI_3 = ...
-    XI_4 = ...
-    XI_5 = ...
 class Result:
     """
     The answer of a detector to a frame. Structured arrays have the fields of layers.jsonl; places are in
@@ -391,61 +467,51 @@ class Result:
         """
         N uint8, a Verdict for each corner.
         """
-class Scenario:
+class Filter:
     """
-    A scenario to simulate, or a recording: a YAML file of the form in scenarios/README.md.
+    The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.
     """
-    @staticmethod
-    def from_yaml(text: str, *, file: str | os.PathLike[str] = ..., set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> Scenario:
+    @typing.overload
+    def __init__(self, scenario: Scenario) -> None:
         """
-        A scenario from YAML text. file: a path that gives the name, and the folder from which relative paths
-        begin; it need not exist.
+        With the scenario's camera, preset and settings.
         """
-    def __init__(self, file: str | os.PathLike[str], *, set: collections.abc.Mapping[str, typing.Any] | None = None, seed: int | None = None) -> None:
+    @typing.overload
+    def __init__(self, camera: Camera, preset: str = 'default', *, set: collections.abc.Mapping[str, typing.Any] | None = None) -> None:
         """
-        Reads and checks the whole file.
+        preset: default, lab or cars. set: parameters that replace the preset's, by the keys of
+        filter/parameters.cpp: {"circle.gap": 0.3}; angles in degrees.
+        Raises Error for an unknown preset, key or value, ValueError for an impossible camera.
+        """
+    def step(self, corners: numpy.typing.ArrayLike, motion: Motion, signatures: numpy.typing.ArrayLike | None = None, *, picture: numpy.typing.ArrayLike | None = None) -> Result:
+        """
+        Processes the next frame.
 
-        set: values that replace the file's, as in lcs run --set: {"ego.speed": "0.7 m/s"}.
-        seed: replaces the file's.
-        Raises Error with file, line, problem and remedy. Warns of settings of the filter that have no
-        effect.
-        """
-    def __repr__(self) -> str:
-        ...
-    @property
-    def camera(self) -> Camera:
-        ...
-    @property
-    def file(self) -> pathlib.Path:
-        ...
-    @property
-    def frames(self) -> int:
-        """
-        Number of frames; for a recording an upper bound.
+        corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 uint8;
+        picture: height x width uint8, grey, without distortion. Bodies that approach at constant speed are
+        found only with pictures, and only by the preset default.
+        Raises TypeError or ValueError for arrays of another type or shape, and then ignores the frame.
+        Numbers that are not finite or out of range never raise: they are left out, see diagnostics.
         """
     @property
-    def groups(self) -> list[str]:
+    def diagnostics(self) -> list[str]:
         """
-        Groups of the scenario, such as "short".
+        Problems of the data so far, a line for each kind.
         """
-    @property
-    def name(self) -> str:
+class Detections:
+    """
+    The answer of your own detector to a frame.
+    """
+    def __init__(self, rebels: numpy.typing.ArrayLike | None = None, *, boxes: numpy.typing.ArrayLike | None = None, ids: numpy.typing.ArrayLike | None = None, circles: numpy.typing.ArrayLike | None = None, masks: numpy.typing.ArrayLike | None = None) -> None:
         """
-        The file's stem.
+        rebels: N bool, True for corners of the frame that move by themselves; None: no verdicts.
+        boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has left l and
+        right r. ids: M whole numbers from 0, which stay with their objects from frame to frame.
+        masks: in place of boxes, M x H x W bool: the pixels of each object.
+        circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are counted.
+        Raises TypeError or ValueError for arrays of another type or shape. Scorer.add checks places and the
+        size of masks against the camera.
         """
-    @property
-    def purpose(self) -> str:
-        """
-        One line.
-        """
-    @property
-    def recorded(self) -> bool:
-        """
-        Whether the frames come from a recording instead of a simulation.
-        """
-    @property
-    def seed(self) -> int:
-        ...
 class Scorer:
     """
     Scores a run's frames, one after another, without keeping their pictures.
@@ -468,95 +534,29 @@ class Scorer:
         """
         Problems of the run so far, a line each, as lcs run prints them.
         """
-class Simulation:
+class Detector:
     """
-    The frames of a scenario, one after another. To be used by the thread that made it; other
-    threads run meanwhile. The same scenario and seed give the same bits.
+    A detector of the bench: lcs, lcs:lab, lcs:cars, klt, dis (tools/comparators/README.md), or a
+    program of yours (tools/comparators/PROTOCOL.md). It says the same as by lcs run.
     """
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, name: str = '', *, command: str = '', timeout: float = 30.0) -> None:
+        """
+        name: of the detector; lcs if not given. With command: its name in results.
+        command: starts the program, as 'python3 mine.py'. timeout: for each of its answers, s.
+        Raises ValueError for an unknown name, Error for a program that does not start.
+        """
+    def finish(self) -> list[str]:
+        """
+        Ends the program after the last frame. Returns remarks, a line each.
+        """
+    def step(self, frame: Frame) -> Result:
+        """
+        Processes the next frame of a scenario with the same camera; give all frames in order.
+        Raises Error for a program that ends or answers wrongly.
+        """
+    @property
+    def name(self) -> str:
         ...
-    def __iter__(self) -> collections.abc.Iterator[Frame]:
-        ...
-    def __next__(self) -> Frame:
-        ...
-    @property
-    def scenario(self) -> Scenario:
-        ...
-    @property
-    def warnings(self) -> list[str]:
-        """
-        Problems so far, a line each: the rover or an actor ran into something, fell, or tipped over.
-        """
-class Truth:
-    """
-    The truth of a frame, as tools/scoring/SCORING.md defines it. A recorded frame has only labels;
-    its motion, depth, object_ids and poses raise ValueError.
-    """
-    def of(self, points: numpy.typing.ArrayLike) -> numpy.ndarray:
-        """
-        The rows of `corners` for other points, N x 2 in pixels, such as corners of your own detector.
-        """
-    @property
-    def T_WC(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        4 x 4 float64: takes camera coordinates to the world's (z up), m.
-        """
-    @property
-    def T_WO(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        K x 4 x 4 float64: takes coordinates of the object with that id to the world's; 0 is the world.
-        """
-    @property
-    def boxes(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        M x 4 float64: left, top, right, bottom of `objects`, pixel edges.
-        """
-    @property
-    def corners(self) -> numpy.ndarray:
-        """
-        A row for each of the frame's corners: label, radial, outline, object (its id; 0: the fixed world,
-        -1: none), depth_m, motion_x, motion_y (px until the next frame), static_motion_x,
-        static_motion_y (px: the same if the point were fixed).
-        """
-    @property
-    def depth(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        H x W float32: z-depth, m; inf where there is sky.
-        """
-    @property
-    def labels(self) -> numpy.typing.NDArray[numpy.uint8]:
-        """
-        N uint8, a Label for each of the frame's corners.
-        """
-    @property
-    def motion(self) -> Motion:
-        """
-        Motion since the last frame by the exact poses.
-        """
-    @property
-    def names(self) -> dict[int, str]:
-        """
-        The names of all objects by id.
-        """
-    @property
-    def object_ids(self) -> numpy.typing.NDArray[numpy.int32]:
-        """
-        H x W int32: id of the object that a pixel shows; 0 the fixed setting, -1 sky and the rover.
-        """
-    @property
-    def objects(self) -> numpy.ndarray:
-        """
-        A row for each visible object: object (its id), left, top, right, bottom (pixel edges of its
-        visible part), visible_px, visible_fraction, moving.
-        """
-class Verdict(enum.IntEnum):
-    """
-    The verdict on a corner.
-    """
-    IGNORED = ...
-    NORMAL = ...
-    PENDING = ...
-    REBEL = ...
 def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '', allow_missing: bool = False) -> dict[str, typing.Any]:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
