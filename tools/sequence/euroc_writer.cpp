@@ -35,16 +35,110 @@ std::string sensor_yaml(const char* type, const std::string& comment, const sim:
       type, comment, numbers(matrix_of(T_BS), ", "));
 }
 
-class EurocWriter : public Writer {
- public:
-  using Writer::Writer;
+std::string imu_yaml(const SequenceInfo& info) {
+  const scenario::Imu& imu = info.scenario.imu;
+  return sensor_yaml("imu", fmt::format("simulated, preset {}", imu.preset), sim::Pose{}) +
+         fmt::format(
+             "rate_hz: {}\n\n# {}.\n\n# Noise: Kalibr's model.\n"
+             "gyroscope_noise_density: {}      # [ rad / s / sqrt(Hz) ]\n"
+             "gyroscope_random_walk: {}        # [ rad / s^2 / sqrt(Hz) ]\n"
+             "accelerometer_noise_density: {}  # [ m / s^2 / sqrt(Hz) ]\n"
+             "accelerometer_random_walk: {}    # [ m / s^3 / sqrt(Hz) ]\n",
+             imu.rate_hz, reading_text(imu), imu.noise.gyroscope_noise_density,
+             imu.noise.gyroscope_random_walk, imu.noise.accelerometer_noise_density,
+             imu.noise.accelerometer_random_walk);
+}
 
-  void write(const FrameView& frame, FrameOutput& output) const override {
+std::string camera_yaml(const SequenceInfo& info) {
+  const sim::Lens& lens = info.calibration.optics.lens();
+  const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
+  const sim::Pose T_SC = info.calibration.T_BS.inverse() * info.calibration.T_BC;
+  return sensor_yaml("camera", "simulated; x right, y down, z forward", T_SC) +
+         fmt::format(
+             "\n# Pixels: (0, 0) is the centre of the top-left one.\nrate_hz: {}\nresolution: "
+             "[{}, {}]\ncamera_model: pinhole\nintrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv\n"
+             "distortion_model: {}\ndistortion_coefficients: [{}]\n",
+             info.scenario.camera.rate_hz, lens.width_px, lens.height_px, lens.fu_px, lens.fv_px,
+             lens.cu_px, lens.cv_px, is_fisheye ? "equidistant" : "radial-tangential",
+             lens.coefficients.empty() ? "0.0, 0.0, 0.0, 0.0"
+                                       : numbers(four_coefficients(lens), ", "));
+}
+
+std::string odometry_yaml(const SequenceInfo& info) {
+  const scenario::Odometry& odometry = info.scenario.odometry;
+  return sensor_yaml("odometry",
+                     "velocity of the rover's origin, in the rover's frame (x ahead, y left, z "
+                     "up), and its yaw rate, by its wheels",
+                     info.calibration.T_BS.inverse()) +
+         fmt::format(
+             "rate_hz: {}\nnoise_mps: {}     # white, standard deviation of a reading\n"
+             "yaw_noise_radps: {}  # likewise\n"
+             "scale_error: {}  # standard deviation of a scale drawn once\n",
+             odometry.rate_hz, odometry.noise_mps, odometry.yaw_noise_radps, odometry.scale_error);
+}
+
+std::vector<SequenceDocument> euroc_documents(const SequenceInfo& info) {
+  const auto csv = [](const std::string& path, const char* header, const char* stream) {
+    return SequenceDocument{path, {{.text = header}, {.stream = stream}}};
+  };
+  const std::string camera = "mav0/" + camera_name(info.place);
+  std::vector<SequenceDocument> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
+                                    {camera + "/sensor.yaml", {{.text = camera_yaml(info)}}}};
+  if (!info.is_first()) return all;
+  all.insert(all.end(),
+             {csv("mav0/imu0/data.csv", kImuHeader, "imu"),
+              csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
+              {"mav0/imu0/sensor.yaml", {{.text = imu_yaml(info)}}},
+              {"mav0/state_groundtruth_estimate0/sensor.yaml",
+               {{.text = sensor_yaml("visual-inertial",
+                                     "pose, velocity and biases of the IMU, exact, at its readings",
+                                     sim::Pose{})}}}});
+  if (info.scenario.odometry.enabled) {
+    all.push_back(csv("mav0/odometry0/data.csv", kOdometryHeader, "odometry"));
+    all.push_back({"mav0/odometry0/sensor.yaml", {{.text = odometry_yaml(info)}}});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string camera_name(std::size_t place) {
+  return fmt::format("cam{}", place);
+}
+
+std::string picture_path(std::int64_t stamp_ns, std::size_t place) {
+  return fmt::format("mav0/{}/data/{}.png", camera_name(place), stamp_ns);
+}
+
+/// Writes the pictures and their list, which every sequence has, and their exposures if these
+/// change.
+Writer picture_writer(const SequenceInfo& info) {
+  const std::string folder = "mav0/" + camera_name(info.place);
+  std::vector<SequenceDocument> documents{
+      {folder + "/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+  if (info.scenario.image.auto_exposure) {
+    documents.push_back(
+        {folder + "/exposure.csv",
+         {{.text = "#timestamp [ns],exposure [s],gain []\n"}, {.stream = "exposures"}}});
+  }
+  const auto write = [info](const FrameView& frame, FrameOutput& output) {
+    const std::string path = picture_path(frame.stamp_ns, info.place);
+    output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
+    output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
+    const sim::Exposure& exposure = frame.now.exposure;
+    output.rows["exposures"] =
+        fmt::format("{},{},{}\n", frame.stamp_ns, exposure.time_s, exposure.gain);
+  };
+  return {write, documents};
+}
+
+Writer euroc_writer(const SequenceInfo& info) {
+  const auto write = [info](const FrameView& frame, FrameOutput& output) {
     const sim::Observation& o = frame.now;
     const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
     output.rows["camera_pose"] =
         fmt::format("{},{}\n", frame.stamp_ns, numbers(std::span(T_WC).first(12), ","));
-    if (!info_.is_first()) return;
+    if (!info.is_first()) return;
     std::string& imu = output.rows["imu"];
     for (const sim::ImuSample& sample : o.imu) {
       imu += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.gyro_radps),
@@ -62,116 +156,8 @@ class EurocWriter : public Writer {
       odometry += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, three(sample.velocity_mps),
                               sample.yaw_rate_radps.value());
     }
-  }
-
-  std::vector<SequenceDocument> documents() const override {
-    const auto csv = [](const std::string& path, const char* header, const char* stream) {
-      return SequenceDocument{path, {{.text = header}, {.stream = stream}}};
-    };
-    const std::string camera = "mav0/" + camera_name(info_.place);
-    std::vector<SequenceDocument> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
-                                      {camera + "/sensor.yaml", {{.text = camera_yaml()}}}};
-    if (!info_.is_first()) return all;
-    all.insert(
-        all.end(),
-        {csv("mav0/imu0/data.csv", kImuHeader, "imu"),
-         csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
-         {"mav0/imu0/sensor.yaml", {{.text = imu_yaml()}}},
-         {"mav0/state_groundtruth_estimate0/sensor.yaml",
-          {{.text = sensor_yaml("visual-inertial",
-                                "pose, velocity and biases of the IMU, exact, at its readings",
-                                sim::Pose{})}}}});
-    if (info_.scenario.odometry.enabled) {
-      all.push_back(csv("mav0/odometry0/data.csv", kOdometryHeader, "odometry"));
-      all.push_back({"mav0/odometry0/sensor.yaml", {{.text = odometry_yaml()}}});
-    }
-    return all;
-  }
-
- private:
-  std::string imu_yaml() const {
-    const scenario::Imu& imu = info_.scenario.imu;
-    return sensor_yaml("imu", fmt::format("simulated, preset {}", imu.preset), sim::Pose{}) +
-           fmt::format(
-               "rate_hz: {}\n\n# {}.\n\n# Noise: Kalibr's model.\n"
-               "gyroscope_noise_density: {}      # [ rad / s / sqrt(Hz) ]\n"
-               "gyroscope_random_walk: {}        # [ rad / s^2 / sqrt(Hz) ]\n"
-               "accelerometer_noise_density: {}  # [ m / s^2 / sqrt(Hz) ]\n"
-               "accelerometer_random_walk: {}    # [ m / s^3 / sqrt(Hz) ]\n",
-               imu.rate_hz, reading_text(imu), imu.noise.gyroscope_noise_density,
-               imu.noise.gyroscope_random_walk, imu.noise.accelerometer_noise_density,
-               imu.noise.accelerometer_random_walk);
-  }
-
-  std::string camera_yaml() const {
-    const sim::Lens& lens = info_.calibration.optics.lens();
-    const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
-    const sim::Pose T_SC = info_.calibration.T_BS.inverse() * info_.calibration.T_BC;
-    return sensor_yaml("camera", "simulated; x right, y down, z forward", T_SC) +
-           fmt::format(
-               "\n# Pixels: (0, 0) is the centre of the top-left one.\nrate_hz: {}\nresolution: "
-               "[{}, {}]\ncamera_model: pinhole\nintrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv\n"
-               "distortion_model: {}\ndistortion_coefficients: [{}]\n",
-               info_.scenario.camera.rate_hz, lens.width_px, lens.height_px, lens.fu_px, lens.fv_px,
-               lens.cu_px, lens.cv_px, is_fisheye ? "equidistant" : "radial-tangential",
-               lens.coefficients.empty() ? "0.0, 0.0, 0.0, 0.0"
-                                         : numbers(four_coefficients(lens), ", "));
-  }
-
-  std::string odometry_yaml() const {
-    const scenario::Odometry& odometry = info_.scenario.odometry;
-    return sensor_yaml("odometry",
-                       "velocity of the rover's origin, in the rover's frame (x ahead, y left, z "
-                       "up), and its yaw rate, by its wheels",
-                       info_.calibration.T_BS.inverse()) +
-           fmt::format(
-               "rate_hz: {}\nnoise_mps: {}     # white, standard deviation of a reading\n"
-               "yaw_noise_radps: {}  # likewise\n"
-               "scale_error: {}  # standard deviation of a scale drawn once\n",
-               odometry.rate_hz, odometry.noise_mps, odometry.yaw_noise_radps,
-               odometry.scale_error);
-  }
-};
-
-/// Writes the pictures and their list, which every sequence has, and their exposures if these
-/// change.
-class PictureWriter : public Writer {
- public:
-  using Writer::Writer;
-
-  void write(const FrameView& frame, FrameOutput& output) const override {
-    const std::string path = picture_path(frame.stamp_ns, info_.place);
-    output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
-    output.rows["pictures"] = fmt::format("{0},{0}.png\n", frame.stamp_ns);
-    const sim::Exposure& exposure = frame.now.exposure;
-    output.rows["exposures"] =
-        fmt::format("{},{},{}\n", frame.stamp_ns, exposure.time_s, exposure.gain);
-  }
-
-  std::vector<SequenceDocument> documents() const override {
-    const std::string folder = "mav0/" + camera_name(info_.place);
-    std::vector<SequenceDocument> all{
-        {folder + "/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
-    if (info_.scenario.image.auto_exposure) {
-      all.push_back(
-          {folder + "/exposure.csv",
-           {{.text = "#timestamp [ns],exposure [s],gain []\n"}, {.stream = "exposures"}}});
-    }
-    return all;
-  }
-};
-
-}  // namespace
-
-std::string camera_name(std::size_t place) {
-  return fmt::format("cam{}", place);
+  };
+  return {write, euroc_documents(info)};
 }
-
-std::string picture_path(std::int64_t stamp_ns, std::size_t place) {
-  return fmt::format("mav0/{}/data/{}.png", camera_name(place), stamp_ns);
-}
-
-const MakeWriter make_picture_writer = make_writer<PictureWriter>;
-const MakeWriter make_euroc_writer = make_writer<EurocWriter>;
 
 }  // namespace lcs::sequence

@@ -120,23 +120,23 @@ Landmarks (`--formats landmarks`):
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats{
-      {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer, 0,
+      {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, euroc_writer, 0,
        260},
-      {"tum", "trajectories: TUM's text files", kTum, make_tum_writer, 0, 90},
-      {"kalibr", "calibration of camera and IMU: Kalibr's YAML", kKalibr, make_kalibr_writer},
+      {"tum", "trajectories: TUM's text files", kTum, tum_writer, 0, 90},
+      {"kalibr", "calibration of camera and IMU: Kalibr's YAML", kKalibr, kalibr_writer},
       {"kitti", "pictures, projections and poses of rectified cameras: KITTI odometry", kKitti,
-       make_kitti_writer, 0.001, 0, false},
-      {"mcap", "messages of ROS 2 in a bag of MCAP; needs PyPI's rosbags", kMcap, make_mcap_writer,
-       0, 600, false, 1},
-      {"events", "events, pictures and IMU: text of RPG's event-camera dataset", kRpg,
-       make_rpg_writer, 10, 90, false},
-      {"dsec", "events: DSEC's HDF5; needs h5py", kDsec, make_dsec_writer, 1.2, 0, false},
-      {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer, 0.002, 0},
-      {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer, 0.03, 0},
-      {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer, 0.015, 0},
-      {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, make_flow_writer, 16.6, 0},
-      {"depth", "depth: KITTI's 16-bit PNG", kDepth, make_depth_writer, 0.05, 0},
-      {"landmarks", "the truth of every corner, CSV", kLandmarks, make_landmarks_writer, 0.36, 0},
+       kitti_writer, 0.001, 0, false},
+      {"mcap", "messages of ROS 2 in a bag of MCAP; needs PyPI's rosbags", kMcap, mcap_writer, 0,
+       600, false, 1},
+      {"events", "events, pictures and IMU: text of RPG's event-camera dataset", kRpg, rpg_writer,
+       10, 90, false},
+      {"dsec", "events: DSEC's HDF5; needs h5py", kDsec, dsec_writer, 1.2, 0, false},
+      {"mot", "boxes and tracks: MOTChallenge", kMot, mot_writer, 0.002, 0},
+      {"coco", "boxes and masks: COCO's JSON", kCoco, coco_writer, 0.03, 0},
+      {"davis", "masks: DAVIS's indexed PNG", kDavis, davis_writer, 0.015, 0},
+      {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, flow_writer, 16.6, 0},
+      {"depth", "depth: KITTI's 16-bit PNG", kDepth, depth_writer, 0.05, 0},
+      {"landmarks", "the truth of every corner, CSV", kLandmarks, landmarks_writer, 0.36, 0},
   };
   return kFormats;
 }

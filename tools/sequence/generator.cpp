@@ -25,10 +25,8 @@ namespace {
 
 constexpr const char* kScenarioFile = "scenario.yaml";
 
-std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
-                                                const GenerateOptions& options) {
-  std::vector<std::unique_ptr<Writer>> writers;
-  writers.push_back(make_picture_writer(info));
+std::vector<Writer> writers_of(const SequenceInfo& info, const GenerateOptions& options) {
+  std::vector<Writer> writers{picture_writer(info)};
   for (const std::string& name : options.formats) writers.push_back(format(name).make(info));
   return writers;
 }
@@ -108,8 +106,8 @@ class FrameMaker {
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
     checks["outline_contrast_ratio"].add(check_outlines(now, mask));
     FrameOutput output;
-    for (const auto& writer : writers_) {
-      writer->write({now, info_.stamp_ns(now.t_ns), mask, motion ? &*motion : nullptr}, output);
+    for (const Writer& writer : writers_) {
+      writer.write({now, info_.stamp_ns(now.t_ns), mask, motion ? &*motion : nullptr}, output);
     }
     for (FrameFile& file : output.files) {
       all.files.push_back(
@@ -120,7 +118,7 @@ class FrameMaker {
 
  private:
   SequenceInfo info_;
-  std::vector<std::unique_ptr<Writer>> writers_;
+  std::vector<Writer> writers_;
 };
 
 /// Adds the rows of the next frame.
@@ -177,8 +175,8 @@ std::vector<SequenceDocument> documents_of(const Rig& rig, const GenerateOptions
       {kScenarioFile, {{.text = scenario_text(infos.front().scenario, options)}}},
       {kReadmeFile, {{.text = readme_text(infos.front(), options.formats)}}}};
   for (const SequenceInfo& info : infos) {
-    for (const auto& writer : writers_of(info, options)) {
-      for (SequenceDocument& document : writer->documents()) {
+    for (Writer& writer : writers_of(info, options)) {
+      for (SequenceDocument& document : writer.documents) {
         document.path = placed(info, document.path);
         for (DocumentPart& part : document.parts) part.stream = placed(info, part.stream);
         all.push_back(std::move(document));

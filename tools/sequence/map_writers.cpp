@@ -46,13 +46,12 @@ cv::Mat1w kitti_depth(const cv::Mat1f& depth_m) {
   return code;
 }
 
+}  // namespace
+
 /// Optical flow in KITTI's 16-bit PNG and Middlebury's .flo: the full motion, and the camera's part
 /// of it.
-class FlowWriter : public Writer {
- public:
-  using Writer::Writer;
-
-  void write(const FrameView& frame, FrameOutput& output) const override {
+Writer flow_writer(const SequenceInfo&) {
+  return {[](const FrameView& frame, FrameOutput& output) {
     if (frame.motion == nullptr) return;  // the last frame has no successor
     const int k = frame.now.index;
     const auto add = [&](const char* kind, const cv::Mat2f& motion, const cv::Mat1b& seen) {
@@ -63,23 +62,15 @@ class FlowWriter : public Writer {
     };
     add("flow", frame.motion->full_px, frame.motion->seen);
     add("flow_ego", frame.motion->ego_px, frame.motion->ego_seen);
-  }
-};
+  }};
+}
 
 /// Depth along the optical axis in KITTI's format: 16-bit PNG, 256 codes per metre.
-class DepthWriter : public Writer {
- public:
-  using Writer::Writer;
-
-  void write(const FrameView& frame, FrameOutput& output) const override {
+Writer depth_writer(const SequenceInfo&) {
+  return {[](const FrameView& frame, FrameOutput& output) {
     output.files.push_back({fmt::format("depth/{:06}.png", frame.now.index),
                             encode_png(kitti_depth(frame.now.truth.depth_m), PngFilter::sub), ""});
-  }
-};
-
-}  // namespace
-
-const MakeWriter make_flow_writer = make_writer<FlowWriter>;
-const MakeWriter make_depth_writer = make_writer<DepthWriter>;
+  }};
+}
 
 }  // namespace lcs::sequence

@@ -33,22 +33,49 @@ std::string frame_name(std::size_t place) {
   return camera_name(place) + "_optical";
 }
 
-class McapWriter : public Writer {
- public:
-  using Writer::Writer;
+nlohmann::json sensors(const SequenceInfo& info) {
+  const scenario::Imu& imu = info.scenario.imu;
+  const scenario::Odometry& wheels = info.scenario.odometry;
+  const auto variance = [&](double density) { return density * density * imu.rate_hz; };
+  const double v = std::pow(wheels.noise_mps, 2), yaw = std::pow(wheels.yaw_noise_radps, 2);
+  nlohmann::json json{{"start", kEpoch_ns},
+                      {"imu_variances",
+                       {variance(imu.noise.gyroscope_noise_density),
+                        variance(imu.noise.accelerometer_noise_density)}},
+                      {"wheel_variances", {v, v, 0, 0, 0, yaw}}};
+  const sim::Pose T_SB = info.calibration.T_BS.inverse();
+  json["links"]["base"] = pose_json(T_SB);
+  for (std::size_t i = 0; i < info.rig.size(); ++i) {
+    const sim::Lens& lens = info.rig[i]->optics.lens();
+    const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
+    json["links"][frame_name(i)] = pose_json(T_SB * info.rig[i]->T_BC);
+    json["cameras"].push_back(
+        {{"frame", frame_name(i)},
+         {"width", lens.width_px},
+         {"height", lens.height_px},
+         {"intrinsics", {lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px}},
+         {"P_03", -lens.fu_px * between(*info.rig[0], *info.rig[i]).p.x()},
+         {"model", is_fisheye ? "equidistant" : "plumb_bob"},
+         {"distortion", lens.coefficients.empty() ? std::vector<double>(5) : lens.coefficients}});
+  }
+  return json;
+}
 
-  void write(const FrameView& frame, FrameOutput& output) const override {
+}  // namespace
+
+Writer mcap_writer(const SequenceInfo& info) {
+  const auto write = [info](const FrameView& frame, FrameOutput& output) {
     const sim::Observation& o = frame.now;
     nlohmann::json json{{"t", frame.stamp_ns},
-                        {"place", info_.place},
-                        {"picture", picture_path(frame.stamp_ns, info_.place)},
+                        {"place", info.place},
+                        {"picture", picture_path(frame.stamp_ns, info.place)},
                         {"boxes", nlohmann::json::array()}};
     for (const sim::ObjectTruth& box : o.objects) {
-      const sim::Object& object = info_.objects.at(static_cast<std::size_t>(box.object - 1));
-      json["boxes"].push_back({box.object, kind_of(info_.scenario, object).category, box.left,
+      const sim::Object& object = info.objects.at(static_cast<std::size_t>(box.object - 1));
+      json["boxes"].push_back({box.object, kind_of(info.scenario, object).category, box.left,
                                box.top, box.right, box.bottom});
     }
-    if (info_.is_first()) {
+    if (info.is_first()) {
       for (const char* key : {"imu", "states", "wheels"}) json[key] = nlohmann::json::array();
       for (const sim::ImuSample& sample : o.imu) {
         json["imu"].push_back(
@@ -69,50 +96,14 @@ class McapWriter : public Writer {
                        {"w_C", numbers_of(o.truth.w_C_radps)}};
     }
     output.rows["mcap"] = files::json_text(json) + "\n";
+  };
+  if (!info.is_first()) return {write};
+  SequenceDocument bag{kBagFile, {{.text = files::json_text(sensors(info)) + "\n"}}};
+  for (std::size_t place = 0; place < info.rig.size(); ++place) {
+    const std::string of = place == 0 ? "" : camera_name(place) + "/";
+    bag.parts.push_back({.stream = of + "mcap"});
   }
-
-  std::vector<SequenceDocument> documents() const override {
-    if (!info_.is_first()) return {};
-    SequenceDocument bag{kBagFile, {{.text = files::json_text(sensors()) + "\n"}}};
-    for (std::size_t place = 0; place < info_.rig.size(); ++place) {
-      const std::string of = place == 0 ? "" : camera_name(place) + "/";
-      bag.parts.push_back({.stream = of + "mcap"});
-    }
-    return {bag};
-  }
-
- private:
-  nlohmann::json sensors() const {
-    const scenario::Imu& imu = info_.scenario.imu;
-    const scenario::Odometry& wheels = info_.scenario.odometry;
-    const auto variance = [&](double density) { return density * density * imu.rate_hz; };
-    const double v = std::pow(wheels.noise_mps, 2), yaw = std::pow(wheels.yaw_noise_radps, 2);
-    nlohmann::json json{{"start", kEpoch_ns},
-                        {"imu_variances",
-                         {variance(imu.noise.gyroscope_noise_density),
-                          variance(imu.noise.accelerometer_noise_density)}},
-                        {"wheel_variances", {v, v, 0, 0, 0, yaw}}};
-    const sim::Pose T_SB = info_.calibration.T_BS.inverse();
-    json["links"]["base"] = pose_json(T_SB);
-    for (std::size_t i = 0; i < info_.rig.size(); ++i) {
-      const sim::Lens& lens = info_.rig[i]->optics.lens();
-      const bool is_fisheye = lens.distortion == sim::Lens::Distortion::equidistant;
-      json["links"][frame_name(i)] = pose_json(T_SB * info_.rig[i]->T_BC);
-      json["cameras"].push_back(
-          {{"frame", frame_name(i)},
-           {"width", lens.width_px},
-           {"height", lens.height_px},
-           {"intrinsics", {lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px}},
-           {"P_03", -lens.fu_px * between(*info_.rig[0], *info_.rig[i]).p.x()},
-           {"model", is_fisheye ? "equidistant" : "plumb_bob"},
-           {"distortion", lens.coefficients.empty() ? std::vector<double>(5) : lens.coefficients}});
-    }
-    return json;
-  }
-};
-
-}  // namespace
-
-const MakeWriter make_mcap_writer = make_writer<McapWriter>;
+  return {write, {bag}};
+}
 
 }  // namespace lcs::sequence

@@ -8,179 +8,160 @@
 namespace lcs::sequence {
 namespace {
 
-/// Trajectories in the format of TUM's RGB-D benchmark: t x y z qx qy qz qw.
-class TumWriter : public Writer {
- public:
-  using Writer::Writer;
+/// \param values of a square matrix, row by row.
+std::string rows(std::span<const double> values, std::size_t size) {
+  std::string text;
+  for (std::size_t row = 0; row < size; ++row) {
+    text += fmt::format("  - [{}]\n", numbers(values.subspan(size * row, size), ", "));
+  }
+  return text;
+}
 
-  void write(const FrameView& frame, FrameOutput& output) const override {
+/// Kalibr's camera-IMU calibration has no place for it.
+std::string shutter(const SequenceInfo& info, std::size_t place) {
+  const scenario::Camera camera = scenario::seen_by(info.scenario, place).camera;
+  if (camera.rolling_shutter_s == 0) return "";
+  return fmt::format("  # rolling shutter: row y is {} s times y later than the first row\n",
+                     camera.rolling_shutter_s / camera.height_px);
+}
+
+std::string kalibr_camera(const SequenceInfo& info, std::size_t place) {
+  const sim::Calibration& own = *info.rig[place];
+  const sim::Lens& lens = own.optics.lens();
+  const std::vector<double> coefficients = four_coefficients(lens);
+  std::vector<std::size_t> others;  // views are taken to overlap
+  for (std::size_t i = 0; i < info.rig.size(); ++i) {
+    if (i != place) others.push_back(i);
+  }
+  return fmt::format(
+      "{}:\n{}  cam_overlaps: [{}]\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
+      "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
+      "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}  # of the clocks; "
+      "{}\n{}",
+      camera_name(place),
+      place == 0 ? "" : "  T_cn_cnm1:\n" + rows(matrix_of(between(own, *info.rig[place - 1])), 4),
+      fmt::join(others, ", "), numbers(coefficients, ", "),
+      coefficients.size() > 4 ? "  # the fifth is k3, which Kalibr lacks" : "",
+      lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan", lens.fu_px,
+      lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px, camera_name(place),
+      rows(matrix_of(own.T_BC.inverse() * own.T_BS), 4),
+      own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s),
+      reading_text(info.scenario.imu), shutter(info, place));
+}
+
+/// As Kalibr writes the result of its model "scale-misalignment".
+std::string imu_errors(const scenario::Imu& imu) {
+  const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = imu.gyroscopes;
+  const scenario::Accelerometers& accelerometers = imu.accelerometers;
+  std::string text;
+  if (imu.gyroscopes != scenario::Gyroscopes{} || accelerometers != scenario::Accelerometers{}) {
+    const auto matrix = [](const char* name, const Eigen::Matrix3d& m) {
+      const Eigen::Matrix3d by_column = m.transpose();
+      return fmt::format("  {}:\n{}", name, rows({by_column.data(), 9}, 3));
+    };
+    text = "model: scale-misalignment\naccelerometers:\n" + matrix("M", accelerometers.M) +
+           "gyroscopes:\n" + matrix("A", A) + matrix("C_gyro_i", C_gyro_i) + matrix("M", M);
+  }
+  const auto limit = [&](const char* what, const std::optional<double>& value, const char* unit) {
+    if (value) text += fmt::format("# {}: {} {}; Kalibr has no key of it\n", what, *value, unit);
+  };
+  limit("range of the gyroscopes", range_radps, "rad/s");
+  limit("resolution of the gyroscopes", resolution_radps, "rad/s");
+  limit("range of the accelerometers", accelerometers.range_mps2, "m/s^2");
+  limit("resolution of the accelerometers", accelerometers.resolution_mps2, "m/s^2");
+  return text;
+}
+
+std::string kalibr_imu(const scenario::Imu& imu) {
+  const scenario::ImuNoise& noise = imu.noise;
+  return fmt::format(
+      "accelerometer_noise_density: {}\naccelerometer_random_walk: {}\n"
+      "gyroscope_noise_density: {}\ngyroscope_random_walk: {}\n"
+      "rostopic: /imu0\nupdate_rate: {}\n# {}\n{}",
+      noise.accelerometer_noise_density, noise.accelerometer_random_walk,
+      noise.gyroscope_noise_density, noise.gyroscope_random_walk, imu.rate_hz, reading_text(imu),
+      imu_errors(imu));
+}
+
+/// \throws input::Error unless a projection P describes each camera: no distortion, and all
+/// cameras side by side along x with one matrix of intrinsics.
+void require_rectified(const SequenceInfo& info) {
+  constexpr double kRounding = 1e-9;
+  const auto require = [&](bool holds, const char* fault, const char* remedy) {
+    if (holds) return;
+    throw input::Error(
+        info.scenario.camera.source,
+        "{}, and KITTI's calib.txt is of rectified cameras; leave kitti out of --formats, or {}",
+        fault, remedy);
+  };
+  const sim::Lens& lens = info.calibration.optics.lens();
+  const sim::Lens& first = info.rig[0]->optics.lens();
+  const sim::Pose T_0 = between(*info.rig[0], info.calibration);
+  require(lens.distortion == sim::Lens::Distortion::none, "the camera has a distortion",
+          "remove camera.distortion");
+  require(T_0.R.isIdentity(kRounding) && T_0.p.tail<2>().norm() < kRounding,
+          "the cameras are not parallel and side by side",
+          "give them one rotation, and places that differ along their x alone");
+  require(lens.fu_px == first.fu_px && lens.fv_px == first.fv_px && lens.cu_px == first.cu_px &&
+              lens.cv_px == first.cv_px && lens.width_px == first.width_px &&
+              lens.height_px == first.height_px,
+          "the cameras have different intrinsics", "give them one focal length, centre and size");
+}
+
+}  // namespace
+
+/// Trajectories in the format of TUM's RGB-D benchmark: t x y z qx qy qz qw.
+Writer tum_writer(const SequenceInfo& info) {
+  std::vector<SequenceDocument> documents{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
+  if (info.is_first()) documents.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
+  const auto write = [info](const FrameView& frame, FrameOutput& output) {
     output.rows["tum_camera"] = pose_line(frame.stamp_ns, frame.now.truth.now.T_WC);
-    if (!info_.is_first()) return;
+    if (!info.is_first()) return;
     std::string& imu = output.rows["tum_imu"];
     for (const sim::ImuTruth& state : frame.now.imu_truth)
       imu += pose_line(kEpoch_ns + state.t_ns, state.T_WS);
-  }
-  std::vector<SequenceDocument> documents() const override {
-    std::vector<SequenceDocument> all{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
-    if (info_.is_first()) all.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
-    return all;
-  }
-};
+  };
+  return {write, documents};
+}
 
 /// Kalibr's YAML: the camera with its pose on the IMU and its time offset, and noise and errors of
 /// the IMU.
-class KalibrWriter : public Writer {
- public:
-  using Writer::Writer;
-
-  std::vector<SequenceDocument> documents() const override {
-    if (!info_.is_first()) return {};
-    std::string camchain;
-    for (std::size_t place = 0; place < info_.rig.size(); ++place) camchain += camera(place);
-    return {{"kalibr/camchain.yaml", {{.text = camchain}}}, {"kalibr/imu.yaml", {{.text = imu()}}}};
+Writer kalibr_writer(const SequenceInfo& info) {
+  if (!info.is_first()) return {};
+  std::string camchain;
+  for (std::size_t place = 0; place < info.rig.size(); ++place) {
+    camchain += kalibr_camera(info, place);
   }
-
- private:
-  /// \param values of a square matrix, row by row.
-  static std::string rows(std::span<const double> values, std::size_t size) {
-    std::string text;
-    for (std::size_t row = 0; row < size; ++row) {
-      text += fmt::format("  - [{}]\n", numbers(values.subspan(size * row, size), ", "));
-    }
-    return text;
-  }
-
-  std::string camera(std::size_t place) const {
-    const sim::Calibration& own = *info_.rig[place];
-    const sim::Lens& lens = own.optics.lens();
-    const std::vector<double> coefficients = four_coefficients(lens);
-    std::vector<std::size_t> others;  // views are taken to overlap
-    for (std::size_t i = 0; i < info_.rig.size(); ++i) {
-      if (i != place) others.push_back(i);
-    }
-    return fmt::format(
-        "{}:\n{}  cam_overlaps: [{}]\n  camera_model: pinhole\n  distortion_coeffs: [{}]{}\n"
-        "  distortion_model: {}\n  intrinsics: [{}, {}, {}, {}]\n  resolution: [{}, {}]\n"
-        "  rostopic: /{}/image_raw\n  T_cam_imu:\n{}  timeshift_cam_imu: {}  # of the clocks; "
-        "{}\n{}",
-        camera_name(place),
-        place == 0 ? ""
-                   : "  T_cn_cnm1:\n" + rows(matrix_of(between(own, *info_.rig[place - 1])), 4),
-        fmt::join(others, ", "), numbers(coefficients, ", "),
-        coefficients.size() > 4 ? "  # the fifth is k3, which Kalibr lacks" : "",
-        lens.distortion == sim::Lens::Distortion::equidistant ? "equidistant" : "radtan",
-        lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px, lens.width_px, lens.height_px,
-        camera_name(place), rows(matrix_of(own.T_BC.inverse() * own.T_BS), 4),
-        own.time_offset_s == 0 ? "0.0" : fmt::format("{}", own.time_offset_s),
-        reading_text(info_.scenario.imu), shutter(place));
-  }
-
-  std::string imu() const {
-    const scenario::ImuNoise& noise = info_.scenario.imu.noise;
-    return fmt::format(
-        "accelerometer_noise_density: {}\naccelerometer_random_walk: {}\n"
-        "gyroscope_noise_density: {}\ngyroscope_random_walk: {}\n"
-        "rostopic: /imu0\nupdate_rate: {}\n# {}\n{}",
-        noise.accelerometer_noise_density, noise.accelerometer_random_walk,
-        noise.gyroscope_noise_density, noise.gyroscope_random_walk, info_.scenario.imu.rate_hz,
-        reading_text(info_.scenario.imu), imu_errors());
-  }
-
-  /// Kalibr's camera-IMU calibration has no place for it.
-  std::string shutter(std::size_t place) const {
-    const scenario::Camera camera = scenario::seen_by(info_.scenario, place).camera;
-    if (camera.rolling_shutter_s == 0) return "";
-    return fmt::format("  # rolling shutter: row y is {} s times y later than the first row\n",
-                       camera.rolling_shutter_s / camera.height_px);
-  }
-
-  /// As Kalibr writes the result of its model "scale-misalignment".
-  std::string imu_errors() const {
-    const auto& [M, C_gyro_i, A, range_radps, resolution_radps] = info_.scenario.imu.gyroscopes;
-    const scenario::Accelerometers& accelerometers = info_.scenario.imu.accelerometers;
-    std::string text;
-    if (info_.scenario.imu.gyroscopes != scenario::Gyroscopes{} ||
-        accelerometers != scenario::Accelerometers{}) {
-      const auto matrix = [](const char* name, const Eigen::Matrix3d& m) {
-        const Eigen::Matrix3d by_column = m.transpose();
-        return fmt::format("  {}:\n{}", name, rows({by_column.data(), 9}, 3));
-      };
-      text = "model: scale-misalignment\naccelerometers:\n" + matrix("M", accelerometers.M) +
-             "gyroscopes:\n" + matrix("A", A) + matrix("C_gyro_i", C_gyro_i) + matrix("M", M);
-    }
-    const auto limit = [&](const char* what, const std::optional<double>& value, const char* unit) {
-      if (value) text += fmt::format("# {}: {} {}; Kalibr has no key of it\n", what, *value, unit);
-    };
-    limit("range of the gyroscopes", range_radps, "rad/s");
-    limit("resolution of the gyroscopes", resolution_radps, "rad/s");
-    limit("range of the accelerometers", accelerometers.range_mps2, "m/s^2");
-    limit("resolution of the accelerometers", accelerometers.resolution_mps2, "m/s^2");
-    return text;
-  }
-};
+  return {.documents = {{"kalibr/camchain.yaml", {{.text = camchain}}},
+                        {"kalibr/imu.yaml", {{.text = kalibr_imu(info.scenario.imu)}}}}};
+}
 
 /// KITTI odometry's layout: rectified cameras by their projections, times and poses.
-class KittiWriter : public Writer {
- public:
-  explicit KittiWriter(const SequenceInfo& info) : Writer(info) { require_rectified(); }
-
-  void write(const FrameView& frame, FrameOutput& output) const override {
-    output.files.push_back({fmt::format("kitti/image_{}/{:06}.png", info_.place, frame.now.index),
-                            "", picture_path(frame.stamp_ns, info_.place)});
-    if (!info_.is_first()) return;
+Writer kitti_writer(const SequenceInfo& info) {
+  require_rectified(info);
+  const auto write = [info](const FrameView& frame, FrameOutput& output) {
+    output.files.push_back({fmt::format("kitti/image_{}/{:06}.png", info.place, frame.now.index),
+                            "", picture_path(frame.stamp_ns, info.place)});
+    if (!info.is_first()) return;
     output.rows["kitti_times"] =
         fmt::format("{:.9f}\n", 1e-9 * static_cast<double>(frame.stamp_ns - kEpoch_ns));
     const std::array<double, 16> T_WC = matrix_of(frame.now.truth.now.T_WC);
     output.rows["kitti_poses"] = numbers(std::span(T_WC).first(12), " ") + "\n";
+  };
+  if (!info.is_first()) return {write};
+  std::string calibration;
+  for (std::size_t i = 0; i < info.rig.size(); ++i) {
+    const sim::Lens& lens = info.rig[i]->optics.lens();
+    const double along_x_m = between(*info.rig[0], *info.rig[i]).p.x();
+    const double base = along_x_m == 0 ? 0 : -lens.fu_px * along_x_m;  // no -0
+    const std::array<double, 12> P{lens.fu_px, 0, lens.cu_px, base, 0, lens.fv_px,
+                                   lens.cv_px, 0, 0,          0,    1, 0};
+    calibration += fmt::format("P{}: {}\n", i, numbers(P, " "));
   }
-
-  std::vector<SequenceDocument> documents() const override {
-    if (!info_.is_first()) return {};
-    std::string calibration;
-    for (std::size_t i = 0; i < info_.rig.size(); ++i) {
-      const sim::Lens& lens = info_.rig[i]->optics.lens();
-      const double along_x_m = between(*info_.rig[0], *info_.rig[i]).p.x();
-      const double base = along_x_m == 0 ? 0 : -lens.fu_px * along_x_m;  // no -0
-      const std::array<double, 12> P{lens.fu_px, 0, lens.cu_px, base, 0, lens.fv_px,
-                                     lens.cv_px, 0, 0,          0,    1, 0};
-      calibration += fmt::format("P{}: {}\n", i, numbers(P, " "));
-    }
-    return {{"kitti/calib.txt", {{.text = calibration}}},
-            {"kitti/times.txt", {{.stream = "kitti_times"}}},
-            {"kitti/poses.txt", {{.stream = "kitti_poses"}}}};
-  }
-
- private:
-  /// \throws input::Error unless a projection P describes each camera: no distortion, and all
-  /// cameras side by side along x with one matrix of intrinsics.
-  void require_rectified() const {
-    constexpr double kRounding = 1e-9;
-    const auto require = [&](bool holds, const char* fault, const char* remedy) {
-      if (holds) return;
-      throw input::Error(
-          info_.scenario.camera.source,
-          "{}, and KITTI's calib.txt is of rectified cameras; leave kitti out of --formats, or {}",
-          fault, remedy);
-    };
-    const sim::Lens& lens = info_.calibration.optics.lens();
-    const sim::Lens& first = info_.rig[0]->optics.lens();
-    const sim::Pose T_0 = between(*info_.rig[0], info_.calibration);
-    require(lens.distortion == sim::Lens::Distortion::none, "the camera has a distortion",
-            "remove camera.distortion");
-    require(T_0.R.isIdentity(kRounding) && T_0.p.tail<2>().norm() < kRounding,
-            "the cameras are not parallel and side by side",
-            "give them one rotation, and places that differ along their x alone");
-    require(lens.fu_px == first.fu_px && lens.fv_px == first.fv_px && lens.cu_px == first.cu_px &&
-                lens.cv_px == first.cv_px && lens.width_px == first.width_px &&
-                lens.height_px == first.height_px,
-            "the cameras have different intrinsics", "give them one focal length, centre and size");
-  }
-};
-
-}  // namespace
-
-const MakeWriter make_tum_writer = make_writer<TumWriter>;
-const MakeWriter make_kalibr_writer = make_writer<KalibrWriter>;
-const MakeWriter make_kitti_writer = make_writer<KittiWriter>;
+  return {write,
+          {{"kitti/calib.txt", {{.text = calibration}}},
+           {"kitti/times.txt", {{.stream = "kitti_times"}}},
+           {"kitti/poses.txt", {{.stream = "kitti_poses"}}}}};
+}
 
 }  // namespace lcs::sequence

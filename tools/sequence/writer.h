@@ -1,12 +1,12 @@
 /// \file
-/// Interface of a format's writer, which turns simulated frames into files of their own, and rows
+/// A format's writer, which turns simulated frames into files of their own, and rows
 /// of the files that all frames share.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -83,33 +83,23 @@ struct FrameView {
   const TrueFlow* motion = nullptr;  ///< to the next frame; null if not requested, or last
 };
 
-class Writer {
- public:
-  explicit Writer(const SequenceInfo& info) : info_(info) {}
-  virtual ~Writer() = default;
-
+struct Writer {
   /// A pure function of the frame, so that frames may be written in any order and by any process.
-  virtual void write(const FrameView&, FrameOutput&) const {}
+  std::function<void(const FrameView&, FrameOutput&)> write = [](const auto&, auto&) {};
   /// Files that contain the rows of all frames. Their paths, and the paths of a frame's files, are
   /// for cam0; the generator moves the files of another camera.
-  virtual std::vector<SequenceDocument> documents() const { return {}; }
-
- protected:
-  SequenceInfo info_;
+  std::vector<SequenceDocument> documents = {};
 };
 
-using MakeWriter = std::unique_ptr<Writer> (*)(const SequenceInfo& info);
-template <class T>
-std::unique_ptr<Writer> make_writer(const SequenceInfo& info) {
-  return std::make_unique<T>(info);
-}
+/// \throws input::Error if the sequence cannot have the format.
+using MakeWriter = Writer(const SequenceInfo& info);
 
 /// A format that `lcs generate` writes.
 struct Format {
   std::string_view name;
   std::string_view purpose;  ///< one readable line
   std::string_view readme;   ///< its files, as list items for a sequence's README
-  MakeWriter make;
+  MakeWriter* make;
   double bytes_a_pixel = 0;    ///< of its files, for `estimated_bytes`
   double bytes_a_reading = 0;  ///< likewise, for each reading of the IMU
   bool is_usual = true;        ///< written if no formats are named

@@ -11,11 +11,9 @@
 
 namespace lcs::sequence {
 
-/// Makes a writer. \throws input::Error if the sequence cannot have the format.
-extern const MakeWriter make_picture_writer, make_euroc_writer, make_kalibr_writer,
-    make_kitti_writer, make_tum_writer, make_mcap_writer, make_rpg_writer, make_dsec_writer,
-    make_mot_writer, make_coco_writer, make_davis_writer, make_flow_writer, make_depth_writer,
-    make_landmarks_writer;
+MakeWriter picture_writer, euroc_writer, kalibr_writer, kitti_writer, tum_writer, mcap_writer,
+    rpg_writer, dsec_writer, mot_writer, coco_writer, davis_writer, flow_writer, depth_writer,
+    landmarks_writer;
 
 /// A format that a Python script writes by a library. Its document has text in place of the bytes.
 struct Scripted {
