@@ -3,33 +3,52 @@
 #include <Eigen/Core>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "sim/pictures/media.h"
+#include <stdexcept>
 
 namespace lcs::comparators {
 
 KltDetector::KltDetector(const Intrinsics& camera, const KltParameters& parameters)
     : camera_(camera),
       parameters_(parameters),
-      flow_(parameters.flow),
-      groups_(parameters.groups) {}
+      flow_(sim::optical_flow()),
+      pyramids_(parameters.baseline_s),
+      groups_(parameters.groups) {
+  const bool window_is_right = parameters.window_px >= 3 && parameters.window_px % 2 == 1;
+  if (!window_is_right || parameters.levels < 0 || parameters.max_iterations < 1) {
+    throw std::invalid_argument("a parameter of the optical flow is out of its range");
+  }
+}
 
 const FrameResult& KltDetector::step(const bench::DetectorInput& input) {
-  const EgoMotion& motion = flow_.advance(input.grey, input.motion);
+  const cv::Size window(parameters_.window_px, parameters_.window_px);
+  flow_.build_pyramid(input.grey, pyramids_.begin(input.motion), window, parameters_.levels,
+                      /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                      /*tryReuseInputImage=*/false);
+  const EgoMotion& motion = pyramids_.motion();
   const MotionField field = exact_field(camera_, motion);
   const MotionField back = exact_field(camera_, turned_back(motion));
 
-  guesses_.clear();
+  corners_.clear();
+  before_.clear();
   for (const Eigen::Vector2f& corner : input.corners_px) {
-    guesses_.push_back(back.rotated(corner.cast<double>()));
+    const Vec2 guess = back.rotated(corner.cast<double>());
+    corners_.emplace_back(corner.x(), corner.y());
+    before_.emplace_back(cv::Point2d(guess.x(), guess.y()));
   }
-  const auto tracked = flow_.track(input.corners_px, guesses_);
-
-  motions_.assign(input.corners_px.size(), {});
+  found_.assign(corners_.size(), 0);
+  if (const auto* earlier = pyramids_.earlier(); earlier != nullptr && !corners_.empty()) {
+    const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
+                                 parameters_.max_iterations, parameters_.least_step_px);
+    flow_.lucas_kanade(pyramids_.now(), *earlier, corners_, before_, found_, cv::noArray(), window,
+                       parameters_.levels, until, cv::OPTFLOW_USE_INITIAL_FLOW,
+                       parameters_.least_eigenvalue);
+  }
+  motions_.assign(corners_.size(), {});
   for (std::size_t i = 0; i < motions_.size(); ++i) {
-    if (!tracked[i]) continue;
-    motions_[i] = epipolar_motion(field, parameters_.residual_px,
-                                  input.corners_px[i].cast<double>(), field.rotated(*tracked[i]));
+    if (!found_[i]) continue;
+    motions_[i] =
+        epipolar_motion(field, parameters_.residual_px, input.corners_px[i].cast<double>(),
+                        field.rotated(Vec2(before_[i].x, before_[i].y)));
   }
   return groups_.group(input.corners_px, motions_, motion.dt_s);
 }

@@ -4,8 +4,8 @@
 
 #include <opencv2/video/tracking.hpp>
 
+#include "sim/pictures/media.h"
 #include "tools/bench/detector.h"
-#include "tools/comparators/backward_flow.h"
 #include "tools/comparators/epipolar.h"
 #include "tools/comparators/lookback.h"
 #include "tools/comparators/rebel_groups.h"
@@ -13,14 +13,23 @@
 namespace lcs::comparators {
 
 struct KltParameters {
-  FlowParameters flow;
+  double baseline_s = kBaseline_s;  ///< age of the image to compare with, about; >= 0
+  int window_px = 15;               ///< side of the matched window; odd, >= 3
+  int levels = 4;                   ///< pyramid levels above the image itself; >= 0
+  int max_iterations = 30;          ///< on each level
+  double least_step_px = 0.01;      ///< iterations end below this step
+  double least_eigenvalue = 1e-4;   ///< of the window's gradients, normalised as in OpenCV
   double residual_px = kStatic_px;  ///< largest distance of a static corner from the segment
-  GroupParameters groups;
+  GroupParameters groups = {};
 };
 
 /// The comparator `klt`, a baseline of common methods with OpenCV and an IMU. Each corner is
-/// tracked back to the image of a baseline ago. A static point lies on the epipolar segment there;
-/// other corners move by themselves.
+/// tracked back to the image of a baseline ago by pyramidal Lucas-Kanade (Bouguet, "Pyramidal
+/// Implementation of the Affine Lucas Kanade Feature Detector", 2000; OpenCV's). A static point
+/// lies on the epipolar segment there; other corners move by themselves.
+///
+/// A verdict belongs to a corner of the current frame, so the flow runs backwards from its corners
+/// to the earlier image. Forward tracking would end at points that are no detected corners.
 ///
 /// It gets the same camera motion and ground as the filter. It stores only images, and so decides
 /// on two frames.
@@ -29,14 +38,16 @@ class KltDetector : public bench::Detector {
   /// \throws std::invalid_argument for a parameter out of its range.
   explicit KltDetector(const Intrinsics& camera, const KltParameters& parameters = {});
   const FrameResult& step(const bench::DetectorInput& input) override;
-  Diagnostics diagnostics() const override { return flow_.diagnostics(); }
+  Diagnostics diagnostics() const override { return pyramids_.diagnostics(); }
 
  private:
   Intrinsics camera_;
   KltParameters parameters_;
-  BackwardFlow flow_;
+  const sim::OpticalFlow& flow_;
+  Lookback<std::vector<cv::Mat>> pyramids_;
   RebelGroups groups_;
-  std::vector<Vec2> guesses_;  // scratch storage of the current frame
+  std::vector<cv::Point2f> corners_, before_;  // scratch storage of the current frame
+  std::vector<unsigned char> found_;
   std::vector<CornerMotion> motions_;
 };
 
