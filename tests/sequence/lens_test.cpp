@@ -137,7 +137,7 @@ TEST_P(Lens, HasTheMotionsOfItsCorners) {
   const SequenceInfo info{scenario_, simulation_.calibration(), simulation_.objects(),
                           simulation_.origin(), rig};
   FrameOutput output;
-  format("landmarks").make(info)->write({now_, 0, object_mask(now_.truth), nullptr}, output);
+  format("landmarks").make(info).write({now_, 0, object_mask(now_.truth), nullptr}, output);
   const ByOpenCv opencv(optics().lens());
   std::istringstream rows(output.rows.at("landmarks"));
   int compared = 0, beside_centre = 0;
