@@ -152,11 +152,15 @@ TEST(KinematicsModels, HomographyAndTrueDepthAreExactForAnyMotion) {
 /// At the row's own frame rate: at another rate a short step would be slower than the filter's
 /// still speed.
 TEST(KinematicsSweep, EveryStepIsExactWithTheTrueDepthWhateverTheConfiguredRate) {
-  const auto rows = sweep_translation(config_with({"camera.rate=1 Hz"}), {});
-  ASSERT_GT(rows.size(), 200u);
-  for (const TranslationRow& row : rows) {
-    if (row.depth != DepthSource::truth) continue;
-    EXPECT_LT(row.error.max_px, 1e-10) << row.speed_mps << " m/s at " << row.rate_hz << " Hz";
+  Study study;
+  sweep_translation(config_with({"camera.rate=1 Hz"}), {}, study.translation);
+  ASSERT_GT(study.translation.figures("max_px").size(), 200u);
+  const Table::Where exact{{"depth", "truth"}};
+  const auto errors_px = study.translation.figures("max_px", exact);
+  const auto speeds_mps = study.translation.figures("speed_mps", exact);
+  const auto rates_hz = study.translation.figures("rate_hz", exact);
+  for (std::size_t i = 0; i < errors_px.size(); ++i) {
+    EXPECT_LT(errors_px[i], 1e-10) << speeds_mps[i] << " m/s at " << rates_hz[i] << " Hz";
   }
 }
 
@@ -284,12 +288,12 @@ TEST(KinematicsNoise, AnOwnImuIsTriedBeforeThePresets) {
 /// Results depend on the seed, not on the thread: two runs give the same bits.
 TEST(KinematicsNoise, ItsRowsAreTheSameInEveryRun) {
   const StudyConfig config = config_with({"imu.rate=50 Hz"}, {.noise_seeds = 2});
-  const auto once = imu_rows(config, [](int) {}), again = imu_rows(config, [](int) {});
-  ASSERT_EQ(once.size(), again.size());
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    EXPECT_EQ(once[i].error.rms_px, again[i].error.rms_px);
-    EXPECT_EQ(once[i].error.median_px, again[i].error.median_px);
-    EXPECT_EQ(once[i].rotation_error.max_px, again[i].rotation_error.max_px);
+  Study once, again;
+  add_imu_rows(config, once.imu, [](int) {});
+  add_imu_rows(config, again.imu, [](int) {});
+  for (const char* column : {"rms_px", "median_px", "max_px", "rotation_rms_px"}) {
+    EXPECT_FALSE(once.imu.figures(column).empty());
+    EXPECT_EQ(once.imu.figures(column), again.imu.figures(column)) << column;
   }
 }
 

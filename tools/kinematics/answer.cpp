@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <numeric>
+#include <tuple>
 
 #include "tools/kinematics/theory.h"
 
@@ -18,12 +19,10 @@ constexpr double kLeastTurn_px = 0.1;  // of the picture in a frame; less is no 
 constexpr double kLargest_deg = 10;    // of the sweep of rotations
 constexpr int kAxes[] = {1, 0, 2};     // pan, tilt, roll
 
-/// The first row for which the condition is true.
-template <class Row, class Condition>
-const Row& row_where(const std::vector<Row>& rows, Condition condition) {
-  const auto found = std::ranges::find_if(rows, condition);
-  if (found == rows.end()) throw std::logic_error("an experiment lacks a row of the answer");
-  return *found;
+/// The largest of the figures; 0 without any above.
+double worst_of(const std::vector<double>& figures) {
+  return std::accumulate(figures.begin(), figures.end(), 0.0,
+                         [](double a, double b) { return std::max(a, b); });
 }
 
 std::string verdict_on(const Study& study, double error_px, const std::string& of) {
@@ -31,19 +30,15 @@ std::string verdict_on(const Study& study, double error_px, const std::string& o
                      error_px < kRounding_px ? 0 : error_px, of);
 }
 
-const DriveRow& drive_row(const Study& study, std::string_view drive, const FieldModel& model) {
-  return row_where(study.drives, [&](const DriveRow& row) {
-    return row.drive == drive && row.told == "truth" && row.model.rotation == model.rotation &&
-           row.model.depth == model.depth;
-  });
-}
-
 std::string verdict_on_rotation(const Study& study, RotationModel rotation) {
-  const DriveRow& row = drive_row(study, "configured", {rotation, DepthSource::truth});
-  if (row.turn_max_rad * study.config.camera.focal_px < kLeastTurn_px) {
+  if (study.turn_max_rad * study.config.camera.focal_px < kLeastTurn_px) {
     return "untried: this drive does not turn";
   }
-  return verdict_on(study, row.error.p95_px, "(95 %) on the configured drive");
+  const double p95_px = study.drives.figure("p95_px", {{"drive", "configured"},
+                                                       {"told_by", "truth"},
+                                                       {"rotation", name(rotation)},
+                                                       {"depth", "truth"}});
+  return verdict_on(study, p95_px, "(95 %) on the configured drive");
 }
 
 std::string rate_of(const Study& study) {
@@ -70,12 +65,8 @@ Statement first_order(const Study& study, const PointSet& points) {
 }
 
 Statement homography(const Study& study) {
-  double worst_px = 0;
-  for (const RotationRow& row : study.rotation) {
-    if (row.model.rotation == RotationModel::homography && row.step_m == 0) {
-      worst_px = std::max(worst_px, row.error.max_px);
-    }
-  }
+  const double worst_px =
+      worst_of(study.rotation.figures("max_px", {{"rotation", "homography"}, {"step_m", 0.0}}));
   return {"rotation",
           fmt::format("homography: the largest error of turns up to {:g} deg", kLargest_deg),
           {{"homography.worst", worst_px, "px", 0}},
@@ -110,10 +101,7 @@ Statement as_printed(const Study& study, const PointSet& points) {
 }
 
 Statement true_depth(const Study& study) {
-  double worst_px = 0;
-  for (const TranslationRow& row : study.translation) {
-    if (row.depth == DepthSource::truth) worst_px = std::max(worst_px, row.error.max_px);
-  }
+  const double worst_px = worst_of(study.translation.figures("max_px", {{"depth", "truth"}}));
   return {"translation",
           "true depth: the largest error of steps up to half the depth",
           {{"translation.truth.worst", worst_px, "px", 0}},
@@ -122,49 +110,50 @@ Statement true_depth(const Study& study) {
 
 Statement depth_sources(const Study& study) {
   const StudyConfig& config = study.config;
-  const auto of = [&](DepthSource depth) -> const DriveRow& {
-    return drive_row(study, "straight", {RotationModel::homography, depth});
+  const auto of = [&](const char* depth, const char* column) {
+    return study.drives.figure(column, {{"drive", "straight"},
+                                        {"told_by", "truth"},
+                                        {"rotation", "homography"},
+                                        {"depth", depth}});
   };
-  const DriveRow &reference = of(DepthSource::reference), &learnt = of(DepthSource::learnt);
   return {"translation",
           fmt::format("rendered, straight on at {:.2g} m/s, {}: V by the reference depth of {:g} "
                       "m, and by the landmark's own V",
                       config.speed_mps, rate_of(study), field_of(config.filter).reference_depth_m),
-          {{"translation.reference.median", reference.error.median_px, "px",
-            reference.expected_median_px},
-           {"translation.reference.p95", reference.error.p95_px, "px", kUnknown},
-           {"translation.learnt.median", learnt.error.median_px, "px", kUnknown},
-           {"translation.learnt.p95", learnt.error.p95_px, "px", kUnknown}},
-          verdict_on(study, learnt.error.p95_px, "(95 %) by the landmark's own V")};
+          {{"translation.reference.median", of("reference", "median_px"), "px",
+            of("reference", "expected_median_px")},
+           {"translation.reference.p95", of("reference", "p95_px"), "px", kUnknown},
+           {"translation.learnt.median", of("learnt", "median_px"), "px", kUnknown},
+           {"translation.learnt.p95", of("learnt", "p95_px"), "px", kUnknown}},
+          verdict_on(study, of("learnt", "p95_px"), "(95 %) by the landmark's own V")};
 }
 
 Statement imu_noise(const Study& study) {
   const scenario::Scenario& scenario = study.config.scenario;
   const std::string name = imus(study.config).front().name;
-  const auto of = [&](bool odometry) -> const ImuRow& {
-    return row_where(study.imu, [&](const ImuRow& row) {
-      return row.imu == name && row.odometry == odometry && row.rate_hz == scenario.camera.rate_hz;
-    });
+  const auto of = [&](const char* odometry, const char* column) {
+    return study.imu.figure(
+        column, {{"imu", name}, {"odometry", odometry}, {"rate_hz", scenario.camera.rate_hz}});
   };
-  const ImuRow &alone = of(false), &held = of(true);
   const bool has_odometry = scenario.odometry.enabled;
   return {"IMU",
           fmt::format("{} at {}, over {:g} s from a known start: without odometry, with odometry, "
                       "and the part of the rotation",
                       name, rate_of(study), kImuDrive_s),
-          {{"imu.dead_reckoning.rms", alone.error.rms_px, "px", alone.expected_rms_px},
-           {"imu.odometry.rms", held.error.rms_px, "px", held.expected_rms_px},
-           {"imu.rotation.rms", alone.rotation_error.rms_px, "px", alone.expected_rotation_rms_px}},
-          verdict_on(study, (has_odometry ? held : alone).error.rms_px,
+          {{"imu.dead_reckoning.rms", of("no", "rms_px"), "px", of("no", "expected_rms_px")},
+           {"imu.odometry.rms", of("yes", "rms_px"), "px", of("yes", "expected_rms_px")},
+           {"imu.rotation.rms", of("no", "rotation_rms_px"), "px",
+            of("no", "expected_rotation_rms_px")}},
+          verdict_on(study, of(has_odometry ? "yes" : "no", "rms_px"),
                      has_odometry ? "with the scenario's odometry" : "without odometry")};
 }
 
 Statement mount(const Study& study, const PointSet& points) {
-  const auto of = [&](int axis, double pan_deg) -> const MountRow& {
-    return row_where(study.mount, [&](const MountRow& row) {
-      return row.points == points.name && row.axis == axis && row.error_deg == 1 &&
-             row.pan_deg == pan_deg;
-    });
+  const auto of = [&](int axis, double pan_deg, const char* column) {
+    return study.mount.figure(column, {{"points", points.name},
+                                       {"axis", axis_name(axis)},
+                                       {"error_deg", 1.0},
+                                       {"pan_deg", pan_deg}});
   };
   const Eigen::Vector3d step_C_m = study.config.step_C_m();
   Statement s{"mount",
@@ -178,7 +167,7 @@ Statement mount(const Study& study, const PointSet& points) {
     const std::vector<Landmark> seen =
         landmarks(points, turned(1, pan_deg * kDegree, step_C_m), field_of(study.config.filter));
     for (const int axis : kAxes) {
-      const double rms_px = of(axis, pan_deg).error.rms_px;
+      const double rms_px = of(axis, pan_deg, "rms_px");
       worst_px = std::max(worst_px, rms_px);
       s.figures.push_back(
           {fmt::format("mount.{}{}.rms", pan_deg == 0 ? "" : "panning.", axis_name(axis)), rms_px,
@@ -187,7 +176,7 @@ Statement mount(const Study& study, const PointSet& points) {
                         axis, kDegree)});
     }
   }
-  s.figures.push_back({"mount.foe_shift", of(1, 0).foe_shift_px, "px",
+  s.figures.push_back({"mount.foe_shift", of(1, 0, "foe_shift_px"), "px",
                        study.config.camera.focal_px * std::tan(kDegree)});
   s.verdict = verdict_on(study, worst_px, "for 1 deg about the worst axis");
   return s;
@@ -195,23 +184,23 @@ Statement mount(const Study& study, const PointSet& points) {
 
 Statement bumps(const Study& study) {
   constexpr double kRough_m = 5e-3;
-  const auto of = [&](std::string_view rotation, std::string_view told) -> const BumpRow& {
-    return row_where(study.bumps, [&](const BumpRow& row) {
-      return row.roughness_m == kRough_m && row.rotation == rotation && row.told == told;
-    });
+  const auto of = [&](const char* rotation, const char* told_by, const char* column) {
+    return study.bumps.figure(
+        column, {{"roughness_m", kRough_m}, {"rotation", rotation}, {"told_by", told_by}});
   };
-  const BumpRow &none = of("none", "truth"), &first = of("first_order", "truth"),
-                &exact = of("homography", "truth"), &imu = of("homography", "imu");
+  const double told_px = of("homography", "imu", "rms_px");
   return {"bumps",
           fmt::format("wheels on bumps of {:g} mm, {}: the turn in a frame, and the error with the "
                       "rotation left in, by first order, by the homography, and told by the IMU",
                       1e3 * kRough_m, rate_of(study)),
-          {{"bumps.turn.p95", none.turn_p95_deg, "deg", kUnknown},
-           {"bumps.none.rms", none.error.rms_px, "px", none.expected_rms_px},
-           {"bumps.first_order.rms", first.error.rms_px, "px", first.expected_rms_px},
-           {"bumps.homography.rms", exact.error.rms_px, "px", 0},
-           {"bumps.imu.rms", imu.error.rms_px, "px", kUnknown}},
-          verdict_on(study, imu.error.rms_px, "told by the IMU")};
+          {{"bumps.turn.p95", of("none", "truth", "turn_p95_deg"), "deg", kUnknown},
+           {"bumps.none.rms", of("none", "truth", "rms_px"), "px",
+            of("none", "truth", "expected_rms_px")},
+           {"bumps.first_order.rms", of("first_order", "truth", "rms_px"), "px",
+            of("first_order", "truth", "expected_rms_px")},
+           {"bumps.homography.rms", of("homography", "truth", "rms_px"), "px", 0},
+           {"bumps.imu.rms", told_px, "px", kUnknown}},
+          verdict_on(study, told_px, "told by the IMU")};
 }
 
 /// The time until which the velocity error stays within the tolerance, at the reference depth.
@@ -220,13 +209,15 @@ std::string verdict_on_drift(const Study& study, const std::string& imu) {
   const bool odometry = config.scenario.odometry.enabled;
   const double px_for_mps =
       config.camera.focal_px * config.frame_s() / field_of(config.filter).reference_depth_m;
+  const Table::Where own{{"imu", imu}, {"odometry", odometry ? "yes" : "no"}};
+  const auto lateral_mps = study.drift.figures("lateral_mps", own);
+  const auto vertical_mps = study.drift.figures("vertical_mps", own);
+  const auto t_s = study.drift.figures("t_s", own);
   double until_s = 0;
   bool is_over = false;
-  for (const DriftRow& row : study.drift) {
-    if (row.imu != imu || row.odometry != odometry || is_over) continue;
-    is_over = px_for_mps * std::max(row.rms.velocity_B_mps.y(), row.rms.velocity_B_mps.z()) >
-              config.tolerance_px;
-    if (!is_over) until_s = row.t_s;
+  for (std::size_t i = 0; i < t_s.size() && !is_over; ++i) {
+    is_over = px_for_mps * std::max(lateral_mps[i], vertical_mps[i]) > config.tolerance_px;
+    if (!is_over) until_s = t_s[i];
   }
   return fmt::format("{} {:g} s by the velocity {} odometry, at {:g} m",
                      is_over ? "no: for" : "yes: for all", until_s,
@@ -243,19 +234,17 @@ Statement drift(const Study& study, const std::string& imu) {
               {},
               verdict_on_drift(study, imu)};
   for (const bool odometry : {false, true}) {
-    const DriftRow& row = row_where(study.drift, [&](const DriftRow& each) {
-      return each.imu == imu && each.odometry == odometry && each.t_s >= end_s;
-    });
-    const auto add = [&](const char* what, double rms, const char* unit, double expected) {
+    const Table::Where end{{"imu", imu}, {"odometry", odometry ? "yes" : "no"}, {"t_s", end_s}};
+    for (const auto& [what, column, expected, unit] :
+         {std::tuple("forward", "forward_mps", "expected_forward_mps", "m/s"),
+          {"lateral", "lateral_mps", "expected_lateral_mps", "m/s"},
+          {"vertical", "vertical_mps", "expected_vertical_mps", "m/s"},
+          {"tilt", "tilt_rad", "expected_tilt_rad", "rad"},
+          {"heading", "heading_rad", "expected_heading_rad", "rad"}}) {
       s.figures.push_back({fmt::format("drift.{}.{}{}", imu, odometry ? "odometry." : "", what),
-                           rms, unit, expected});
-    };
-    const Eigen::Vector3d &v = row.rms.velocity_B_mps, &v_expected = row.expected.velocity_B_mps;
-    add("forward", v.x(), "m/s", v_expected.x());
-    add("lateral", v.y(), "m/s", v_expected.y());
-    add("vertical", v.z(), "m/s", v_expected.z());
-    add("tilt", row.rms.tilt_rad, "rad", row.expected.tilt_rad);
-    add("heading", row.rms.heading_rad, "rad", row.expected.heading_rad);
+                           study.drift.figure(column, end), unit,
+                           study.drift.figure(expected, end)});
+    }
   }
   return s;
 }

@@ -93,10 +93,16 @@ Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
 
 constexpr double kRate_hz = 1;  // of the rows
 
-using Squares = DriftErrors;  // the squared errors at one time
+/// Errors, or their squares, of attitude, and of velocity in the rover's frame.
+struct DriftErrors {
+  double tilt_rad = 0;                                       ///< about each horizontal axis
+  double heading_rad = 0;                                    ///< about the vertical
+  Eigen::Vector3d velocity_B_mps = Eigen::Vector3d::Zero();  ///< forward, lateral, vertical
+};
 
-Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& frame,
-                   const sim::Calibration& calibration) {
+/// The squared errors at one time.
+DriftErrors squares_of(const EgoMotionEstimator& estimator, const sim::Observation& frame,
+                       const sim::Calibration& calibration) {
   const sim::Pose& T_BS = calibration.T_BS;
   const Eigen::Matrix3d R_WB = frame.truth.now.T_WC.R * calibration.T_BC.R.transpose();
   const Eigen::Matrix3d R_WB_told = estimator.R_WS() * T_BS.R.transpose();
@@ -135,6 +141,27 @@ scenario::Scenario with_imu(const StudyConfig& config, const scenario::ImuNoise&
   return s;
 }
 
+/// The results of a drive for each of so many seeds, in their order.
+/// \param work called with the scenario of a seed and the drive with its noise.
+template <class Work>
+auto for_seeds(const scenario::Scenario& scenario, const sim::Drive& ideal, int seeds,
+               const Tick& tick, const Work& work) {
+  std::vector<decltype(work(scenario, ideal))> all(static_cast<std::size_t>(seeds));
+  process::for_each_parallel(
+      seeds,
+      [&](int i) {
+        scenario::Scenario s = scenario;
+        s.seed += static_cast<std::uint64_t>(i);
+        all[static_cast<std::size_t>(i)] = work(s, with_noise(ideal, s));
+      },
+      tick);
+  return all;
+}
+
+const char* yes_or_no(bool flag) {
+  return flag ? "yes" : "no";
+}
+
 }  // namespace
 
 std::vector<NamedImu> imus(const StudyConfig& config) {
@@ -152,57 +179,42 @@ std::vector<NamedImu> imus(const StudyConfig& config) {
   return all;
 }
 
-int imu_pieces(const StudyConfig& config) {
-  return static_cast<int>(rates(config).size() * imus(config).size() * 2) *
-         config.effort.noise_seeds;
+int sensor_pieces(const StudyConfig& config) {
+  const int for_imu = static_cast<int>(rates(config).size()) * config.effort.noise_seeds +
+                      config.effort.drift_seeds;
+  return static_cast<int>(kRoughness_m.size()) +
+         2 * static_cast<int>(imus(config).size()) * for_imu;
 }
 
-std::vector<ImuRow> imu_rows(const StudyConfig& config, const Tick& tick) {
+void add_imu_rows(const StudyConfig& config, Table& rows, const Tick& tick) {
   const PointSet points = coarse_points(config);
   const int seeds = config.effort.noise_seeds;
-  std::vector<ImuRow> rows;
   for (const double rate_hz : rates(config)) {
     const sim::Drive ideal = sim::drive(straight_drive(config, kImuDrive_s, rate_hz));
     const auto seen = landmarks_along(ideal, points, field_of(config.filter));
     for (const NamedImu& imu : imus(config)) {
       for (const bool odometry : {false, true}) {
         const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
-        std::vector<Errors> of_seed(static_cast<std::size_t>(seeds));
-        process::for_each_parallel(
-            seeds,
-            [&](int i) {
-              scenario::Scenario s = scenario;
-              s.seed += static_cast<std::uint64_t>(i);
-              of_seed[static_cast<std::size_t>(i)] =
-                  errors_along(config, with_noise(ideal, s), s, seen);
-            },
-            tick);
+        const auto of_seed =
+            for_seeds(scenario, ideal, seeds, tick, [&](const auto& s, const sim::Drive& drive) {
+              return errors_along(config, drive, s, seen);
+            });
         Errors together;
         for (const Errors& e : of_seed) {
           append(together.all, e.all);
           append(together.rotation, e.rotation);
         }
-        rows.push_back(
-            {.imu = imu.name,
-             .rate_hz = rate_hz,
-             .odometry = odometry,
-             .seeds = seeds,
-             .error = summary(std::move(together.all)),
-             .rotation_error = summary(std::move(together.rotation)),
-             .expected_rms_px = expected_rms_px(config, ideal, seen, scenario, rate_hz, true),
-             .expected_rotation_rms_px =
-                 expected_rms_px(config, ideal, seen, scenario, rate_hz, false)});
+        rows.add(imu.name, rate_hz, yes_or_no(odometry), static_cast<double>(seeds),
+                 expected_rms_px(config, ideal, seen, scenario, rate_hz, true),
+                 summary(std::move(together.rotation)).rms_px,
+                 expected_rms_px(config, ideal, seen, scenario, rate_hz, false),
+                 summary(std::move(together.all)));
       }
     }
   }
-  return rows;
 }
 
-int bump_pieces() {
-  return static_cast<int>(kRoughness_m.size());
-}
-
-std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
+void add_bump_rows(const StudyConfig& config, Table& rows, const Tick& tick) {
   const PointSet points = coarse_points(config);
   const double rate_hz = config.scenario.camera.rate_hz;
   const double duration_s =
@@ -210,7 +222,6 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
   const scenario::Scenario own =
       with_imu(config, config.scenario.imu.noise, config.scenario.odometry.enabled);
   const Intrinsics camera = bench::intrinsics(config.camera);
-  std::vector<BumpRow> rows;
   // One after the other: the physics engine's error handlers belong to the whole process.
   for (const double roughness_m : kRoughness_m) {
     const sim::Drive drive = sim::drive(bumpy_drive(config, duration_s, rate_hz, roughness_m));
@@ -254,69 +265,51 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
       }
     }
     for (Way& way : ways) {
-      rows.push_back({.roughness_m = roughness_m,
-                      .turn_median_deg = scoring::median(turns_deg).value_or(0),
-                      .turn_p95_deg = scoring::quantile(turns_deg, 0.95).value_or(0),
-                      .turn_max_deg = scoring::quantile(turns_deg, 1).value_or(0),
-                      .rotation = way.rotation,
-                      .told = way.told,
-                      .error = summary(std::move(way.errors_px)),
-                      .expected_rms_px = way.expected_px.empty()
-                                             ? std::nan("")
-                                             : summary(std::move(way.expected_px)).rms_px});
+      rows.add(roughness_m, scoring::median(turns_deg).value_or(0),
+               scoring::quantile(turns_deg, 0.95).value_or(0),
+               scoring::quantile(turns_deg, 1).value_or(0), way.rotation, way.told,
+               way.expected_px.empty() ? std::nan("") : summary(std::move(way.expected_px)).rms_px,
+               summary(std::move(way.errors_px)));
     }
     tick(1);
   }
-  return rows;
 }
 
-int drift_pieces(const StudyConfig& config) {
-  return static_cast<int>(imus(config).size()) * 2 * config.effort.drift_seeds;
-}
-
-std::vector<DriftRow> drift_rows(const StudyConfig& config, const Tick& tick) {
+void add_drift_rows(const StudyConfig& config, Table& rows, const Tick& tick) {
   const sim::Drive ideal = sim::drive(straight_drive(config, config.effort.drift_s, kRate_hz));
   const int seeds = config.effort.drift_seeds;
-  std::vector<DriftRow> rows;
   for (const NamedImu& imu : imus(config)) {
     for (const bool odometry : {false, true}) {
       const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
-      std::vector<std::vector<Squares>> of_seed(static_cast<std::size_t>(seeds));
-      process::for_each_parallel(
-          seeds,
-          [&](int i) {
-            scenario::Scenario s = scenario;
-            s.seed += static_cast<std::uint64_t>(i);
-            const sim::Drive drive = with_noise(ideal, s);
+      const auto of_seed =
+          for_seeds(scenario, ideal, seeds, tick, [&](const auto& s, const sim::Drive& drive) {
             bench::EgoMotionFeed feed(s, drive.calibration);
+            std::vector<DriftErrors> squares;
             for (const sim::Observation& frame : drive.frames) {
               feed.next(frame);
-              of_seed[static_cast<std::size_t>(i)].push_back(
-                  squares_of(feed.estimator(), frame, drive.calibration));
+              squares.push_back(squares_of(feed.estimator(), frame, drive.calibration));
             }
-          },
-          tick);
+            return squares;
+          });
       for (std::size_t k = 0; k < ideal.frames.size(); ++k) {
-        Squares sum;
+        DriftErrors sum;
         for (const auto& squares : of_seed) {
           sum.tilt_rad += squares[k].tilt_rad;
           sum.heading_rad += squares[k].heading_rad;
           sum.velocity_B_mps += squares[k].velocity_B_mps;
         }
         const double t_s = static_cast<double>(k) / kRate_hz;
-        rows.push_back(
-            {.imu = imu.name,
-             .odometry = odometry,
-             .t_s = t_s,
-             .seeds = seeds,
-             .rms = {.tilt_rad = std::sqrt(sum.tilt_rad / seeds),
-                     .heading_rad = std::sqrt(sum.heading_rad / seeds),
-                     .velocity_B_mps = (sum.velocity_B_mps / seeds).cwiseSqrt()},
-             .expected = expected_errors(config, scenario, ideal.calibration.gravity_mps2, t_s)});
+        const Eigen::Vector3d v_mps = (sum.velocity_B_mps / seeds).cwiseSqrt();
+        const DriftErrors expected =
+            expected_errors(config, scenario, ideal.calibration.gravity_mps2, t_s);
+        const Eigen::Vector3d& expected_mps = expected.velocity_B_mps;
+        rows.add(imu.name, yes_or_no(odometry), t_s, static_cast<double>(seeds),
+                 std::sqrt(sum.tilt_rad / seeds), std::sqrt(sum.heading_rad / seeds), v_mps.x(),
+                 v_mps.y(), v_mps.z(), expected.tilt_rad, expected.heading_rad, expected_mps.x(),
+                 expected_mps.y(), expected_mps.z());
       }
     }
   }
-  return rows;
 }
 
 }  // namespace lcs::kinematics

@@ -43,13 +43,13 @@ double learnt_ratio(const sim::Pinhole& camera, const MotionField& field, const 
 
 }  // namespace
 
-std::string_view name(RotationModel rotation) {
+const char* name(RotationModel rotation) {
   return rotation == RotationModel::as_printed    ? "as_printed"
          : rotation == RotationModel::first_order ? "first_order"
                                                   : "homography";
 }
 
-std::string_view name(DepthSource depth) {
+const char* name(DepthSource depth) {
   return depth == DepthSource::reference ? "reference"
          : depth == DepthSource::learnt  ? "learnt"
                                          : "truth";

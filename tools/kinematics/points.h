@@ -46,8 +46,8 @@ inline constexpr auto kModels = [] {
   return all;
 }();
 
-std::string_view name(RotationModel rotation);
-std::string_view name(DepthSource depth);
+const char* name(RotationModel rotation);
+const char* name(DepthSource depth);
 
 /// A static point, seen in frame k-1 and again in frame k. Pixels and frames are as in
 /// `filter/kinematics/camera.h`.

@@ -59,8 +59,9 @@ scenario::Scenario with_sensors(scenario::Scenario scenario, const StudyConfig& 
 
 }  // namespace
 
-DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
-                           const scenario::Scenario& scenario, const Tick& tick) {
+DriveResult rendered_drive(const StudyConfig& config, const NamedDrive& drive, Table& rows,
+                           const Tick& tick) {
+  const scenario::Scenario& scenario = drive.scenario;
   sim::Simulation simulation(scenario);
   const sim::Pinhole camera = simulation.calibration().camera;
   const Intrinsics intrinsics = bench::intrinsics(camera);
@@ -80,11 +81,11 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
   DriveResult result;
   std::vector<double> reference_px;  // by theory, for the reference depth
   std::vector<Landmark> landmarks;   // of the previous frame
-  double turn_max_rad = 0;
   const int every = std::max(1, scenario.frames / kStillFrames);
   while (const auto frame = simulation.next()) {
     const bench::EgoMotionFeed::Motions motions = feed.next(*frame);
-    turn_max_rad = std::max(turn_max_rad, Eigen::AngleAxisd(motions.exact.R_cur_prev).angle());
+    result.turn_max_rad =
+        std::max(result.turn_max_rad, Eigen::AngleAxisd(motions.exact.R_cur_prev).angle());
     for (Case& each : cases) {
       const EgoMotion& motion = each.told == "truth" ? motions.exact : motions.told;
       append(each.errors_px,
@@ -108,9 +109,9 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
     const bool is_expected = each.told == "truth" &&
                              each.model.rotation == RotationModel::homography &&
                              each.model.depth == DepthSource::reference;
-    result.rows.push_back({name, each.told, each.model, summary(std::move(each.errors_px)),
-                           is_expected ? summary(reference_px).median_px : std::nan(""),
-                           turn_max_rad});
+    rows.add(drive.name, each.told, each.model,
+             is_expected ? summary(reference_px).median_px : std::nan(""),
+             summary(std::move(each.errors_px)));
   }
   return result;
 }

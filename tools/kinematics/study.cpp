@@ -16,8 +16,7 @@ PointSet study_points(const sim::Pinhole& camera) {
 int study_pieces(const StudyConfig& config) {
   int frames = 0;
   for (const NamedDrive& drive : drives(config)) frames += drive.scenario.frames;
-  return frames + kSweeps + static_cast<int>(kLenses_deg.size()) + bump_pieces() +
-         imu_pieces(config) + drift_pieces(config);
+  return frames + kSweeps + static_cast<int>(kLenses_deg.size()) + sensor_pieces(config);
 }
 
 Study carry_out(const StudyConfig& config, const Tick& tick) {
@@ -26,31 +25,32 @@ Study carry_out(const StudyConfig& config, const Tick& tick) {
 
   std::vector<PointSet> rendered;
   for (const NamedDrive& drive : drives(config)) {
-    DriveResult result = rendered_drive(config, drive.name, drive.scenario, tick);
-    append(study.drives, std::move(result.rows));
-    if (rendered.empty()) rendered = std::move(result.still_frames);
+    DriveResult result = rendered_drive(config, drive, study.drives, tick);
+    if (!rendered.empty()) continue;  // the first drive is the configured one
+    study.turn_max_rad = result.turn_max_rad;
+    rendered = std::move(result.still_frames);
   }
 
   const std::vector<PointSet> geometric = {study_points(config.camera)};
   for (const auto* points : {&geometric, &std::as_const(rendered)}) {
-    append(study.rotation, sweep_rotation(config, *points));
-    append(study.foe, sweep_foe_distance(config, *points));
-    append(study.mount, sweep_mount(config, *points));
+    sweep_rotation(config, *points, study.rotation);
+    sweep_foe_distance(config, *points, study.foe);
+    sweep_mount(config, *points, study.mount);
     tick(1);
   }
-  study.translation = sweep_translation(config, rendered);
+  sweep_translation(config, rendered, study.translation);
   tick(1);
   for (const double fovy_deg : kLenses_deg) {
     const double fovy_rad = fovy_deg * kDegree;
     const sim::Pinhole camera =
         sim::Pinhole::from_fovy(config.camera.width_px, config.camera.height_px, fovy_rad);
-    study.focal.push_back(focal_row(config, study_points(camera), fovy_deg));
-    study.focal.push_back(focal_row(config, rendered_with_lens(config, fovy_rad), fovy_deg));
+    add_focal_length(config, study_points(camera), fovy_deg, study.focal);
+    add_focal_length(config, rendered_with_lens(config, fovy_rad), fovy_deg, study.focal);
     tick(1);
   }
-  study.bumps = bump_rows(config, tick);
-  study.imu = imu_rows(config, tick);
-  study.drift = drift_rows(config, tick);
+  add_bump_rows(config, study.bumps, tick);
+  add_imu_rows(config, study.imu, tick);
+  add_drift_rows(config, study.drift, tick);
   study.left_out = left_out(config);
   return study;
 }

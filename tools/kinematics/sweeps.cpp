@@ -36,13 +36,11 @@ FieldStep step_of(const StudyConfig& config, const sim::Pose& T_CN) {
 
 }  // namespace
 
-std::string_view axis_name(int axis) {
+const char* axis_name(int axis) {
   return axis == 0 ? "tilt" : axis == 1 ? "pan" : "roll";
 }
 
-std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
-                                        const std::vector<PointSet>& points) {
-  std::vector<RotationRow> rows;
+void sweep_rotation(const StudyConfig& config, const std::vector<PointSet>& points, Table& rows) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double angle_deg : kAngles_deg) {
       for (const bool drives : {false, true}) {
@@ -54,13 +52,12 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
             const sim::Pose T_CN = turned(axis, side * angle_deg * kDegree, step_C);
             append(all, errors_after(points, T_CN, step_of(config, T_CN), model));
           }
-          rows.push_back({points.front().name, axis, angle_deg, step_C.norm(), model,
-                          summary(std::move(all))});
+          rows.add(points.front().name, axis_name(axis), angle_deg, step_C.norm(), model,
+                   summary(std::move(all)));
         }
       }
     }
   }
-  return rows;
 }
 
 double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
@@ -92,9 +89,8 @@ double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
   return low;
 }
 
-std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
-                                              const std::vector<PointSet>& rendered) {
-  std::vector<TranslationRow> rows;
+void sweep_translation(const StudyConfig& config, const std::vector<PointSet>& rendered,
+                       Table& rows) {
   const auto add = [&](const std::vector<PointSet>& points, double speed, double rate,
                        double depth_m) {
     const double step_m = speed / rate;
@@ -102,9 +98,8 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
     const sim::Pose T_CN{Eigen::Matrix3d::Identity(), step_m * config.forward_C};
     const FieldStep step = step_to(config.camera, T_CN, 1 / rate, field_of(config.filter));
     for (const DepthSource depth : kDepths) {
-      rows.push_back(
-          {points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
-           summary(errors_after(points, T_CN, step, {RotationModel::homography, depth}))});
+      rows.add(points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
+               summary(errors_after(points, T_CN, step, {RotationModel::homography, depth})));
     }
   };
   std::vector<double> depths_m;
@@ -120,11 +115,10 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
       if (median_m) add(rendered, speed, rate, *median_m);
     }
   }
-  return rows;
 }
 
-std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
-                                       const std::vector<PointSet>& points) {
+void sweep_foe_distance(const StudyConfig& config, const std::vector<PointSet>& points,
+                        Table& rows) {
   const sim::Pose T_CN = turned(1, kFoePan_deg * kDegree, config.step_C_m());
   const FieldStep step = step_of(config, T_CN);
   const MotionField field(step.camera, step.motion, step.field);
@@ -132,7 +126,6 @@ std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
   for (const PointSet& set : points) {
     append(seen, landmarks(set, T_CN, field_of(config.filter)));
   }
-  std::vector<FoeRow> rows;
   const double diagonal_px = std::hypot(config.camera.width_px, config.camera.height_px);
   for (double from = 0; from < diagonal_px; from += kFoeBin_px) {
     std::vector<Landmark> there;
@@ -144,11 +137,10 @@ std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
     }
     if (there.empty()) continue;
     for (const FieldModel& model : kModels) {
-      rows.push_back({points.front().name, from, from + kFoeBin_px, model,
-                      summary(errors(step, model, there))});
+      rows.add(points.front().name, from, from + kFoeBin_px, model,
+               summary(errors(step, model, there)));
     }
   }
-  return rows;
 }
 
 EgoMotion seen_by_wrong_mount(const EgoMotion& motion, const Eigen::Matrix3d& R_CM) {
@@ -159,8 +151,7 @@ EgoMotion seen_by_wrong_mount(const EgoMotion& motion, const Eigen::Matrix3d& R_
   return told;
 }
 
-std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<PointSet>& points) {
-  std::vector<MountRow> rows;
+void sweep_mount(const StudyConfig& config, const std::vector<PointSet>& points, Table& rows) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double error_deg : kMount_deg) {
       for (const double pan_deg : {0.0, kMountPan_deg}) {
@@ -169,30 +160,25 @@ std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<P
         const auto foe = MotionField(step.camera, step.motion, step.field).foe();
         step.motion = seen_by_wrong_mount(step.motion, turned(axis, error_deg * kDegree).R);
         const auto told_foe = MotionField(step.camera, step.motion, step.field).foe();
-        rows.push_back({points.front().name, axis, error_deg, pan_deg,
-                        foe && told_foe ? (*told_foe - *foe).norm() : std::nan(""),
-                        summary(errors_after(points, T_CN, step, {}))});
+        rows.add(points.front().name, axis_name(axis), error_deg, pan_deg,
+                 foe && told_foe ? (*told_foe - *foe).norm() : std::nan(""),
+                 summary(errors_after(points, T_CN, step, {})));
       }
     }
   }
-  return rows;
 }
 
-FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fovy_deg) {
-  FocalRow row;
-  row.points = points.name;
-  row.fovy_deg = fovy_deg;
-  row.focal_px = points.camera.focal_px;
+void add_focal_length(const StudyConfig& config, const PointSet& points, double fovy_deg,
+                      Table& rows) {
+  double limit_deg[3], theory_deg[3], printed_deg[3];
   const FieldParameters& field = field_of(config.filter);
   for (int axis = 0; axis < 3; ++axis) {
-    row.limit_deg[axis] =
-        rotation_limit_rad(points, field, RotationModel::first_order, axis, config.tolerance_px) /
-        kDegree;
-    row.theory_deg[axis] =
-        first_order_limit_rad(points.camera, axis, config.tolerance_px) / kDegree;
-    row.printed_deg[axis] =
-        rotation_limit_rad(points, field, RotationModel::as_printed, axis, config.tolerance_px) /
-        kDegree;
+    const auto measured_deg = [&](RotationModel rotation) {
+      return rotation_limit_rad(points, field, rotation, axis, config.tolerance_px) / kDegree;
+    };
+    limit_deg[axis] = measured_deg(RotationModel::first_order);
+    theory_deg[axis] = first_order_limit_rad(points.camera, axis, config.tolerance_px) / kDegree;
+    printed_deg[axis] = measured_deg(RotationModel::as_printed);
   }
   const sim::Pose T_CN{Eigen::Matrix3d::Identity(), config.step_C_m()};
   const FieldStep step = step_to(points.camera, T_CN, config.frame_s(), field);
@@ -200,9 +186,8 @@ FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fov
   const auto median = [&](DepthSource depth) {
     return summary(errors(step, {RotationModel::homography, depth}, seen)).median_px;
   };
-  row.reference_median_px = median(DepthSource::reference);
-  row.learnt_median_px = median(DepthSource::learnt);
-  return row;
+  rows.add(points.name, fovy_deg, points.camera.focal_px, limit_deg, theory_deg, printed_deg,
+           median(DepthSource::reference), median(DepthSource::learnt));
 }
 
 }  // namespace lcs::kinematics
