@@ -4,6 +4,7 @@
 /// `truth.jsonl`. Arrays from the user are checked here.
 #pragma once
 
+#include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -51,13 +52,11 @@ py::array view(const cv::Mat_<Pixel>& picture, py::handle owner) {
 /// Copies a matrix to an array in row-major order; a column vector becomes one-dimensional.
 template <class Derived>
 py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
-  using Scalar = typename Derived::Scalar;
-  using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  std::vector<py::ssize_t> shape{matrix.rows()};
-  if (Derived::ColsAtCompileTime != 1) shape.push_back(matrix.cols());
-  py::array_t<Scalar> array(shape);
-  Eigen::Map<Rows>(array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
-  return read_only(array);
+  constexpr bool is_vector = Derived::ColsAtCompileTime == 1;
+  using Rows =
+      Eigen::Matrix<typename Derived::Scalar, Derived::RowsAtCompileTime,
+                    Derived::ColsAtCompileTime, is_vector ? Eigen::ColMajor : Eigen::RowMajor>;
+  return read_only(py::cast(Rows(matrix)));
 }
 
 /// A float64 array with a row for each item. \tparam Size of a row. \param row_of gives its
@@ -92,33 +91,6 @@ auto number_of(const Member& member) {
   }
 }
 
-/// Names, formats and byte offsets of the fields of a structured array's row.
-class RowFormat {
- public:
-  template <class Number>
-  void add(const char* name) {
-    place_after<Number>(size_);
-    names_.append(name);
-    formats_.append(py::dtype::of<Number>());
-    offsets_.append(size_);
-    size_ += sizeof(Number);
-  }
-  py::dtype dtype() {
-    place_after<double>(size_);
-    return {names_, formats_, offsets_, static_cast<py::ssize_t>(size_)};
-  }
-
-  /// Rounds `place` up to the alignment of `Number`.
-  template <class Number>
-  static void place_after(std::size_t& place) {
-    place = (place + alignof(Number) - 1) / alignof(Number) * alignof(Number);
-  }
-
- private:
-  py::list names_, formats_, offsets_;
-  std::size_t size_ = 0;
-};
-
 /// Visits the fields of `recording::fields` and also `rebel`, which the files encode as separate
 /// lists.
 template <class Item, class Visit>
@@ -127,29 +99,33 @@ void all_fields(Item& item, const Visit& visit) {
   recording::fields(item, visit);
 }
 
-/// A structured array with one row per item.
+/// A structured array with one row per item, its fields aligned as those of a C struct.
 template <class Item>
 py::array rows(std::vector<Item> items) {
-  RowFormat format;
+  py::list fields;
   Item any{};
   all_fields(any, [&](const char* name, const auto& member) {
     if constexpr (kIsNumber<std::remove_cvref_t<decltype(member)>>) {
-      format.add<decltype(number_of(member))>(name);
+      fields.append(py::make_tuple(name, py::dtype::of<decltype(number_of(member))>()));
     }
   });
-  py::array array(format.dtype(), static_cast<py::ssize_t>(items.size()));
-  auto* const data = static_cast<std::byte*>(array.mutable_data());
-  const auto row_size = static_cast<std::size_t>(array.itemsize());
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    std::size_t place = 0;
-    all_fields(items[i], [&](const char*, const auto& member) {
+  const py::dtype type =
+      py::module_::import("numpy").attr("dtype")(fields, py::arg("align") = true);
+  std::vector<std::size_t> places;  // in a row, in bytes
+  for (const py::handle field : fields) {
+    places.push_back(py::cast<std::size_t>(type.attr("fields")[field[py::int_(0)]][py::int_(1)]));
+  }
+  py::array array(type, std::ssize(items));
+  auto* to = static_cast<std::byte*>(array.mutable_data());
+  for (Item& item : items) {
+    auto place = places.begin();
+    all_fields(item, [&](const char*, const auto& member) {
       if constexpr (kIsNumber<std::remove_cvref_t<decltype(member)>>) {
         const auto number = number_of(member);
-        RowFormat::place_after<decltype(number)>(place);
-        std::memcpy(data + i * row_size + place, &number, sizeof number);
-        place += sizeof number;
+        std::memcpy(to + *place++, &number, sizeof number);
       }
     });
+    to += array.itemsize();
   }
   return read_only(std::move(array));
 }

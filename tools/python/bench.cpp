@@ -34,28 +34,6 @@ using namespace py::literals;
 
 using app::Texts;
 
-/// Calls a Python function, if there is one, with the numbers of finished and of all units.
-class Counter : public app::Progress {
- public:
-  Counter(py::object function, int total) : function_(std::move(function)), total_(total) {}
-  ~Counter() override {
-    const py::gil_scoped_acquire interpreter;
-    function_ = {};
-  }
-  Counter(const Counter&) = delete;
-  Counter& operator=(const Counter&) = delete;
-
-  void show(int done) override {
-    check_signals();
-    const py::gil_scoped_acquire interpreter;
-    if (!function_.is_none()) function_(done, total_);
-  }
-
- private:
-  py::object function_;
-  int total_;
-};
-
 /// Collects messages for Python, and ends the work after Ctrl-C.
 class PythonCaller : public app::Caller, public app::SuiteWatch {
  public:
@@ -81,13 +59,11 @@ class PythonCaller : public app::Caller, public app::SuiteWatch {
   }
   std::unique_ptr<app::Progress> progress(const std::string&, int total,
                                           const std::string&) override {
-    const py::gil_scoped_acquire interpreter;
-    return std::make_unique<Counter>(progress_, total);
+    return std::make_unique<Counter>(*this, total);
   }
   void finished(const suite::SuiteProgress& progress, const std::string&, const Texts&,
                 std::span<const suite::RunResult* const>) override {
-    const py::gil_scoped_acquire interpreter;
-    if (!progress_.is_none()) progress_(progress.done, progress.total);
+    count(progress.done, progress.total);
   }
 
   /// Issues the warnings. \return the other messages.
@@ -97,6 +73,21 @@ class PythonCaller : public app::Caller, public app::SuiteWatch {
   }
 
  private:
+  /// Calls the Python function, if there is one, with the numbers of finished and of all units.
+  void count(auto done, auto total) {
+    const py::gil_scoped_acquire interpreter;
+    if (!progress_.is_none()) progress_(done, total);
+  }
+  struct Counter : app::Progress {
+    Counter(PythonCaller& caller_, int total_) : caller(caller_), total(total_) {}
+    void show(int done) override {
+      check_signals();
+      caller.count(done, total);
+    }
+    PythonCaller& caller;
+    int total;
+  };
+
   py::object progress_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point checked_{};

@@ -150,48 +150,38 @@ double seconds(std::int64_t t_ns) {
   return static_cast<double>(t_ns) * 1e-9;
 }
 
-/// A structured array of sensor samples: the time "t" in s, then the fields.
-/// \param fields name and number of float64 values of each field.
-/// \param put called with a sample and the destination of its values.
-template <class Sample, class Put>
-py::array readings(const std::vector<Sample>& samples,
-                   const std::vector<std::pair<const char*, int>>& fields, const Put& put) {
-  py::list columns;
-  columns.append(py::make_tuple("t", "f8"));
-  for (const auto& [name, numbers] : fields) {
-    columns.append(py::make_tuple(name, numbers == 1 ? "f8" : fmt::format("{}f8", numbers)));
-  }
-  py::array array(py::dtype::from_args(columns), std::ssize(samples));
-  auto* to = static_cast<double*>(array.mutable_data());
-  for (const Sample& sample : samples) {
-    *to++ = seconds(sample.t_ns);
-    to = put(sample, to);
-  }
-  return read_only(array);
-}
-
-double* put(const Eigen::Vector3d& vector, double* to) {
-  Eigen::Map<Eigen::Vector3d>{to} = vector;
-  return to + vector.size();
-}
+/// A row of a structured array of sensor samples.
+struct ImuRow {
+  double t;
+  double gyro[3], accel[3];
+};
+struct OdometryRow {
+  double t;
+  double velocity[3], yaw_rate;
+};
 
 py::array imu(const Frame& frame) {
-  const auto& samples = frame.observation ? frame.observation->imu : std::vector<sim::ImuSample>{};
-  return readings(samples, {{"gyro", 3}, {"accel", 3}},
-                  [](const sim::ImuSample& sample, double* to) {
-                    return put(sample.accel_mps2, put(sample.gyro_radps, to));
-                  });
+  std::vector<ImuRow> rows;
+  if (frame.observation) {
+    for (const sim::ImuSample& sample : frame.observation->imu) {
+      const Eigen::Vector3d &w = sample.gyro_radps, &a = sample.accel_mps2;
+      rows.push_back({seconds(sample.t_ns), {w.x(), w.y(), w.z()}, {a.x(), a.y(), a.z()}});
+    }
+  }
+  return read_only(py::array_t<ImuRow>(std::ssize(rows), rows.data()));
 }
 
 py::array odometry(const Frame& frame) {
-  const auto& samples =
-      frame.observation ? frame.observation->odometry : std::vector<sim::OdometrySample>{};
-  return readings(samples, {{"velocity", 3}, {"yaw_rate", 1}},
-                  [](const sim::OdometrySample& sample, double* to) {
-                    to = put(sample.velocity_mps, to);
-                    *to = sample.yaw_rate_radps.value_or(std::numeric_limits<double>::quiet_NaN());
-                    return to + 1;
-                  });
+  std::vector<OdometryRow> rows;
+  if (frame.observation) {
+    for (const sim::OdometrySample& sample : frame.observation->odometry) {
+      const Eigen::Vector3d& v = sample.velocity_mps;
+      rows.push_back({seconds(sample.t_ns),
+                      {v.x(), v.y(), v.z()},
+                      sample.yaw_rate_radps.value_or(std::numeric_limits<double>::quiet_NaN())});
+    }
+  }
+  return read_only(py::array_t<OdometryRow>(std::ssize(rows), rows.data()));
 }
 
 void bind_seen(py::module_& module) {
@@ -403,6 +393,8 @@ std::shared_ptr<Frame> Simulation::next() {
 }
 
 void bind_frame(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(ImuRow, t, gyro, accel);
+  PYBIND11_NUMPY_DTYPE(OdometryRow, t, velocity, yaw_rate);
   bind_motion(module);
   bind_truth(module);
   bind_seen(module);
