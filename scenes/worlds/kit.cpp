@@ -16,13 +16,6 @@ constexpr std::size_t kMostTextures = 16;
 constexpr double kLeastWeather_levels = 4, kMostWeather_levels = 55;
 constexpr double kPhotographs = 0.4;  // share of surfaces, if pictures are given
 
-/// Least and greatest width in metres that a picture of a style spans, where it is not the usual.
-const std::map<Style, std::pair<double, double>> kSpans_m{
-    {Style::concrete, {1.5, 4}}, {Style::plain, {1.5, 4}},   {Style::facade, {3, 7}},
-    {Style::worn, {0.6, 2}},     {Style::fractal, {0.6, 2}}, {Style::stripes, {0.3, 1}},
-    {Style::grille, {0.3, 1}},   {Style::speckle, {0.3, 1}}, {Style::tiles, {0.4, 1.6}}};
-constexpr std::pair kUsualSpan_m{0.5, 1.2};
-
 /// Rounds to millimetres as in the files, so that equal parts share a mesh.
 double rounded(double value) {
   return std::round(value * 1000) / 1000;
@@ -57,7 +50,7 @@ int Kit::plain() {
 
 int Kit::surface(const std::vector<Style>& styles) {
   const Style style = draw.pick(styles);
-  const bool again = draw.chance(0.3), is_cube = draw.chance(0.4) && is_isotropic(style);
+  const bool again = draw.chance(0.3), is_cube = draw.chance(0.4) && info_of(style).is_isotropic;
   const std::vector<int>& same = surfaces_[style];
   if (!same.empty() && (again || world.textures.size() >= kMostTextures)) return draw.pick(same);
   return add_surface(style, false, is_cube);
@@ -68,17 +61,10 @@ int Kit::wide_surface(const std::vector<Style>& styles) {
 }
 
 int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
-  if (style == Style::lettering) tag("text");
-  if (style == Style::foliage) tag("foliage");
-  if (style == Style::speckle) tag("speckle");
-  if (style == Style::bricks || style == Style::tiles || style == Style::stripes ||
-      style == Style::grille || style == Style::facade || style == Style::corrugated) {
-    tag("pattern");
-  }
-  const auto span = kSpans_m.find(style);
-  const auto [least, most] = span == kSpans_m.end() ? kUsualSpan_m : span->second;
+  const StyleInfo& info = info_of(style);
+  if (!info.feature.empty()) tag(info.feature);
   Material material;
-  material.side_m = draw.scaled(least, most) * (is_wide ? 1.4 : 1);
+  material.side_m = draw.scaled(info.least_m, info.most_m) * (is_wide ? 1.4 : 1);
   material.fits = style == Style::lettering && !is_wide;
   material.cube = is_cube;
   material.bold = style != Style::plain && style != Style::concrete;
@@ -89,7 +75,7 @@ int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
   const int pixels = material.side_m > 1.5 ? 512 : 256;
   const bool from_file = !pictures_.empty() && brush.chance(kPhotographs);
   const std::string name =
-      fmt::format("{}_{}", from_file ? "photograph" : name_of(style), material.texture);
+      fmt::format("{}_{}", from_file ? "photograph" : info.name, material.texture);
   cv::Mat3b picture =
       from_file ? photograph(pictures_, pixels, brush) : worlds::paint(style, pixels, brush);
   if (!from_file && style != Style::plain) weather(picture, weather_levels, brush);

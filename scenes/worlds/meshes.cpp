@@ -21,6 +21,17 @@ void add_quad(Mesh& mesh, const std::array<Vector3d, 4>& corners,
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
+/// Adds an upright side over two points of the foot. Texture coordinates run to the right and up,
+/// as seen from outside. \param start of its texture. \return the end of its texture.
+double add_side(Mesh& mesh, const Vector3d& left, const Vector3d& right, double height_m,
+                double start, double side_m) {
+  const double end = start + (right - left).norm() / side_m, up = height_m / side_m;
+  const Vector3d h(0, 0, height_m);
+  add_quad(mesh, {left, right, right + h, left + h},
+           {Vector2d(start, 0), Vector2d(end, 0), Vector2d(end, up), Vector2d(start, up)});
+  return end;
+}
+
 /// Adds a flat face as a fan about a point from which the whole face is visible.
 void add_fan(Mesh& mesh, const Vector3d& middle, const std::vector<Vector3d>& rim,
              const Vector3d& normal, double side_m) {
@@ -55,19 +66,11 @@ std::vector<Vector3d> ring(double radius_m, double z_m, int around) {
 Mesh box_mesh(const Vector3d& size_m, double side_m) {
   Mesh mesh;
   const double x = size_m.x() / 2, y = size_m.y() / 2, z = size_m.z();
-  // texture coordinates run to the right and up, as seen from outside
-  const auto side = [&](const Vector3d& left, const Vector3d& right) {
-    const double along = (right - left).norm() / side_m, up = z / side_m;
-    const Vector3d h(0, 0, z);
-    add_quad(mesh, {left, right, right + h, left + h},
-             {Vector2d(0, 0), Vector2d(along, 0), Vector2d(along, up), Vector2d(0, up)});
-  };
-  const Vector3d a(-x, -y, 0), b(x, -y, 0), c(x, y, 0), d(-x, y, 0);
-  side(a, b);
-  side(b, c);
-  side(c, d);
-  side(d, a);
-  const Vector3d h(0, 0, z);
+  const Vector3d a(-x, -y, 0), b(x, -y, 0), c(x, y, 0), d(-x, y, 0), h(0, 0, z);
+  add_side(mesh, a, b, z, 0, side_m);
+  add_side(mesh, b, c, z, 0, side_m);
+  add_side(mesh, c, d, z, 0, side_m);
+  add_side(mesh, d, a, z, 0, side_m);
   const double u = 2 * x / side_m, v = 2 * y / side_m;
   const std::array<Vector2d, 4> flat{Vector2d(0, 0), Vector2d(u, 0), Vector2d(u, v),
                                      Vector2d(0, v)};
@@ -81,18 +84,13 @@ Mesh prism_mesh(const std::vector<Vector2d>& polygon_m, double height_m, double 
   double along = 0;
   Vector2d middle = Vector2d::Zero();
   std::vector<Vector3d> foot, head;
-  for (std::size_t i = 0; i < polygon_m.size(); ++i) {
-    const Vector2d& p = polygon_m[i];
-    const Vector2d& q = polygon_m[(i + 1) % polygon_m.size()];
-    const double next = along + (q - p).norm() / side_m, up = height_m / side_m;
-    add_quad(mesh,
-             {Vector3d(p.x(), p.y(), 0), Vector3d(q.x(), q.y(), 0),
-              Vector3d(q.x(), q.y(), height_m), Vector3d(p.x(), p.y(), height_m)},
-             {Vector2d(along, 0), Vector2d(next, 0), Vector2d(next, up), Vector2d(along, up)});
-    along = next;
+  for (const Vector2d& p : polygon_m) {
     middle += p / static_cast<double>(polygon_m.size());
     foot.emplace_back(p.x(), p.y(), 0);
     head.emplace_back(p.x(), p.y(), height_m);
+  }
+  for (std::size_t i = 0; i < foot.size(); ++i) {
+    along = add_side(mesh, foot[i], foot[(i + 1) % foot.size()], height_m, along, side_m);
   }
   add_fan(mesh, {middle.x(), middle.y(), height_m}, head, Vector3d::UnitZ(), side_m);
   add_fan(mesh, {middle.x(), middle.y(), 0}, foot, -Vector3d::UnitZ(), side_m);

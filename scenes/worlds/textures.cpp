@@ -414,38 +414,31 @@ void paint_facade(cv::Mat3b& p, Draw& draw) {
   }
 }
 
-struct Painter {
-  std::string_view name;
-  void (*paint)(cv::Mat3b&, Draw&);
-  bool isotropic;
-};
 /// In the order of `Style`.
-constexpr Painter kPainters[] = {
-    {"plain", paint_plain, true},       {"fractal", paint_fractal, true},
-    {"concrete", paint_concrete, true}, {"lettering", paint_lettering, false},
-    {"wood", paint_wood, false},        {"bricks", paint_bricks, false},
-    {"tiles", paint_tiles, false},      {"stripes", paint_stripes, false},
-    {"grille", paint_grille, false},    {"corrugated", paint_corrugated, false},
-    {"foliage", paint_foliage, true},   {"worn", paint_worn, true},
-    {"speckle", paint_speckle, true},   {"facade", paint_facade, false}};
-
-const Painter& painter(Style style) {
-  return kPainters[static_cast<std::size_t>(style)];
-}
+constexpr StyleInfo kStyles[] = {{"plain", paint_plain, true, 1.5, 4},
+                                 {"fractal", paint_fractal, true, 0.6, 2},
+                                 {"concrete", paint_concrete, true, 1.5, 4},
+                                 {"lettering", paint_lettering, false, 0.5, 1.2, "text"},
+                                 {"wood", paint_wood, false, 0.5, 1.2},
+                                 {"bricks", paint_bricks, false, 0.5, 1.2, "pattern"},
+                                 {"tiles", paint_tiles, false, 0.4, 1.6, "pattern"},
+                                 {"stripes", paint_stripes, false, 0.3, 1, "pattern"},
+                                 {"grille", paint_grille, false, 0.3, 1, "pattern"},
+                                 {"corrugated", paint_corrugated, false, 0.5, 1.2, "pattern"},
+                                 {"foliage", paint_foliage, true, 0.5, 1.2, "foliage"},
+                                 {"worn", paint_worn, true, 0.6, 2},
+                                 {"speckle", paint_speckle, true, 0.3, 1, "speckle"},
+                                 {"facade", paint_facade, false, 3, 7, "pattern"}};
 
 }  // namespace
 
-std::string_view name_of(Style style) {
-  return painter(style).name;
-}
-
-bool is_isotropic(Style style) {
-  return painter(style).isotropic;
+const StyleInfo& info_of(Style style) {
+  return kStyles[static_cast<std::size_t>(style)];
 }
 
 cv::Mat3b paint(Style style, int side_px, Draw& draw) {
   cv::Mat3b picture(side_px, side_px);
-  painter(style).paint(picture, draw);
+  info_of(style).paint(picture, draw);
   return picture;
 }
 

@@ -29,11 +29,15 @@ enum class Style {
   facade,      ///< windows in rows
 };
 
-/// Name for messages and files.
-std::string_view name_of(Style style);
-
-/// Whether a style looks the same in all directions, and so fits an object in any orientation.
-bool is_isotropic(Style style);
+struct StyleInfo {
+  std::string_view name;  ///< for messages and files
+  void (*paint)(cv::Mat3b&, Draw&);
+  bool
+      is_isotropic;  ///< looks the same in all directions, and so fits an object in any orientation
+  double least_m, most_m;         ///< width that a picture of it spans
+  std::string_view feature = {};  ///< of a world that has it; may be empty
+};
+const StyleInfo& info_of(Style style);
 
 /// \return a square BGR picture.
 cv::Mat3b paint(Style style, int side_px, Draw& draw);

@@ -449,17 +449,10 @@ Parts any_carton(Kit& k) {
   return carton(k, {s, s * k.draw.between(0.6, 1), s * k.draw.between(0.5, 1.3)}).parts;
 }
 
-Parts any_shelf(Kit& k, double emptiness) {
+template <int kEmptiness_percent>
+Parts any_shelf(Kit& k) {
   const Vector3d size{k.draw.between(0.7, 1.8), k.draw.between(0.28, 0.45), k.draw.between(1, 2.1)};
-  return shelf(k, size, k.draw.whole(3, 5), false, emptiness).parts;
-}
-
-Parts full_shelf(Kit& k) {
-  return any_shelf(k, 0.2);
-}
-
-Parts bare_shelf(Kit& k) {
-  return any_shelf(k, 0.6);
+  return shelf(k, size, k.draw.whole(3, 5), false, kEmptiness_percent / 100.0).parts;
 }
 
 /// A desk with drawers and a screen; one sits on the side of -y.
@@ -503,16 +496,24 @@ struct ThingKind {
   std::string_view name;
   Parts (*make)(Kit&);
 };
-constexpr ThingKind kKinds[] = {
-    {"drum", drum},       {"ball", ball},       {"bollard", bollard},   {"cone", cone},
-    {"person", person},   {"cart", cart},       {"car", car},           {"van", van},
-    {"table", table},     {"chair", chair},     {"cupboard", cupboard}, {"bin", bin},
-    {"plant", plant},     {"bush", bush},       {"tree", tree},         {"rock", rock},
-    {"pole", pole},       {"sign", sign},       {"lamp", lamp_post},    {"bench", bench},
-    {"pallet", pallet},   {"ladder", ladder},   {"statue", statue},     {"sack", sack},
-    {"panel", panel},     {"barrier", barrier}, {"robot", robot},       {"forklift", forklift},
-    {"bicycle", bicycle}, {"load", load},       {"carton", any_carton}, {"shelf", full_shelf},
-    {"desk", desk},       {"railing", railing}, {"column", column},     {"bare_shelf", bare_shelf}};
+constexpr ThingKind kKinds[] = {{"drum", drum},         {"ball", ball},
+                                {"bollard", bollard},   {"cone", cone},
+                                {"person", person},     {"cart", cart},
+                                {"car", car},           {"van", van},
+                                {"table", table},       {"chair", chair},
+                                {"cupboard", cupboard}, {"bin", bin},
+                                {"plant", plant},       {"bush", bush},
+                                {"tree", tree},         {"rock", rock},
+                                {"pole", pole},         {"sign", sign},
+                                {"lamp", lamp_post},    {"bench", bench},
+                                {"pallet", pallet},     {"ladder", ladder},
+                                {"statue", statue},     {"sack", sack},
+                                {"panel", panel},       {"barrier", barrier},
+                                {"robot", robot},       {"forklift", forklift},
+                                {"bicycle", bicycle},   {"load", load},
+                                {"carton", any_carton}, {"shelf", any_shelf<20>},
+                                {"desk", desk},         {"railing", railing},
+                                {"column", column},     {"bare_shelf", any_shelf<60>}};
 
 }  // namespace
 

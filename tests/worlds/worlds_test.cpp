@@ -425,14 +425,14 @@ TEST(Worlds, PicturesOfAFolderAreSurfacesAndChangeNothingElse) {
 TEST(Textures, RepeatWithoutASeam) {
   for (const Style style : {Style::fractal, Style::concrete, Style::foliage, Style::speckle,
                             Style::worn, Style::plain}) {
-    Draw draw(3, name_of(style));
+    Draw draw(3, info_of(style).name);
     const cv::Mat3b picture = paint(style, 256, draw);
     const auto step = [&](int a, int b) {
       return cv::norm(picture.col(a), picture.col(b), cv::NORM_L1);
     };
     double inside = 0;
     for (int x = 0; x + 1 < picture.cols; ++x) inside = std::max(inside, step(x, x + 1));
-    EXPECT_LE(step(picture.cols - 1, 0), 1.3 * inside) << name_of(style);
+    EXPECT_LE(step(picture.cols - 1, 0), 1.3 * inside) << info_of(style).name;
   }
 }
 
