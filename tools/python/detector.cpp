@@ -18,7 +18,7 @@ class Detector {
   Detector(const Scenario& scenario, const app::DetectorChoice& choice)
       : spec_(app::spec_of(choice)),
         scenario_(scenario.full),
-        camera_(bench::intrinsics(scenario.camera.pinhole)) {
+        camera_(bench::intrinsics(scenario.camera)) {
     warn(comparators::apply_preset(spec_, scenario_));
     const py::gil_scoped_release others_may_run;
     const OneThread one_thread;

@@ -25,7 +25,7 @@ struct PictureFilter {
 };
 
 PictureFilter of_scenario(const Scenario& scenario) {
-  return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
+  return {bench::intrinsics(scenario.camera), bench::filter_parameters(scenario.full)};
 }
 
 /// A filter with this camera, preset and settings, validated like a scenario's.
@@ -38,7 +38,7 @@ PictureFilter of_camera(const Camera& camera, const std::string& preset, const S
     settings.filter.push_back(
         {assignment.substr(0, equals), assignment.substr(equals + 1), {"set " + assignment, 0}});
   }
-  return {bench::intrinsics(camera.pinhole), bench::filter_parameters(settings)};
+  return {bench::intrinsics(camera), bench::filter_parameters(settings)};
 }
 
 std::shared_ptr<Result> step(PictureFilter& own, const ArrayLike& corners, const EgoMotion& motion,

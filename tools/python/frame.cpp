@@ -241,18 +241,11 @@ const sim::Observation& observation_of(const Truth& truth) {
       "the truth of a recorded frame is known only by its labels; give a scenario with a scene");
 }
 
-py::array labels_of(const std::vector<sim::CornerTruth>& corners) {
-  py::array_t<std::uint8_t> labels(std::ssize(corners));
-  std::uint8_t* to = labels.mutable_data();
-  for (const sim::CornerTruth& corner : corners) *to++ = static_cast<std::uint8_t>(corner.label);
-  return read_only(labels);
-}
-
 py::array truth_of_points(const Truth& truth, const ArrayLike& points) {
   const sim::Observation& observation = observation_of(truth);
   const Scenario& scenario = *truth.frame->run->scenario;
-  return rows(sim::label_corners(scenario.camera.pinhole, observation.truth,
-                                 points_of(points, "points"), scenario.full.truth_min_depth_m));
+  return rows(sim::label_corners(scenario.camera, observation.truth, points_of(points, "points"),
+                                 scenario.full.truth_min_depth_m));
 }
 
 py::array object_poses(const Truth& truth) {
@@ -281,7 +274,10 @@ its motion, depth, object_ids and poses raise ValueError.)")
           },
           "Motion since the last frame by the exact poses.")
       .def_property_readonly(
-          "labels", [](const Truth& t) { return labels_of(t.frame->seen.record.corner_truth); },
+          "labels",
+          [](const Truth& t) {
+            return py::array(rows(t.frame->seen.record.corner_truth)["label"]);
+          },
           "N uint8, a Label for each of the frame's corners.")
       .def_property_readonly(
           "corners", [](const Truth& t) { return rows(t.frame->seen.record.corner_truth); },

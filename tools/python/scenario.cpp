@@ -52,13 +52,13 @@ std::shared_ptr<Scenario> from_yaml(const std::string& text, const std::filesyst
 }
 
 Camera camera_of(double focal, double cx, double cy, int width, int height, double rate) {
-  return {{.focal_px = focal, .centre_px = {cx, cy}, .width_px = width, .height_px = height}, rate};
+  return {{focal, {cx, cy}, width, height}, rate};
 }
 
 py::array intrinsic_matrix(const Camera& camera) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
-  K(0, 0) = K(1, 1) = camera.pinhole.focal_px;
-  K.block<2, 1>(0, 2) = camera.pinhole.centre_px;
+  K(0, 0) = K(1, 1) = camera.focal_px;
+  K.block<2, 1>(0, 2) = camera.centre_px;
   return copy(K);
 }
 
@@ -71,24 +71,20 @@ void bind_camera(py::module_& module) {
            py::arg("width"), py::arg("height"), py::arg("rate") = 0.0,
            "focal, cx, cy in pixels; width, height of the picture; rate in Hz, 0 where it is not "
            "known.")
+      .def_readonly("fx", &Camera::focal_px, "px")
+      .def_readonly("fy", &Camera::focal_px, "px, as fx")
       .def_property_readonly(
-          "fx", [](const Camera& c) { return c.pinhole.focal_px; }, "px")
+          "cx", [](const Camera& c) { return c.centre_px.x(); }, "px")
       .def_property_readonly(
-          "fy", [](const Camera& c) { return c.pinhole.focal_px; }, "px, as fx")
-      .def_property_readonly(
-          "cx", [](const Camera& c) { return c.pinhole.centre_px.x(); }, "px")
-      .def_property_readonly(
-          "cy", [](const Camera& c) { return c.pinhole.centre_px.y(); }, "px")
-      .def_property_readonly(
-          "width", [](const Camera& c) { return c.pinhole.width_px; }, "px")
-      .def_property_readonly(
-          "height", [](const Camera& c) { return c.pinhole.height_px; }, "px")
+          "cy", [](const Camera& c) { return c.centre_px.y(); }, "px")
+      .def_readonly("width", &Camera::width_px, "px")
+      .def_readonly("height", &Camera::height_px, "px")
       .def_readonly("rate", &Camera::rate_hz, "Pictures a second, Hz; 0: not known.")
       .def_property_readonly("matrix", &intrinsic_matrix, "K, 3 x 3 float64, in pixels.")
       .def("__repr__", [](const Camera& c) {
         return fmt::format("Camera(focal={}, cx={}, cy={}, width={}, height={}, rate={})",
-                           c.pinhole.focal_px, c.pinhole.centre_px.x(), c.pinhole.centre_px.y(),
-                           c.pinhole.width_px, c.pinhole.height_px, c.rate_hz);
+                           c.focal_px, c.centre_px.x(), c.centre_px.y(), c.width_px, c.height_px,
+                           c.rate_hz);
       });
 }
 

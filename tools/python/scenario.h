@@ -13,8 +13,7 @@
 namespace lcs::python {
 
 /// Pinhole camera with square pixels and its frame rate.
-struct Camera {
-  sim::Pinhole pinhole;
+struct Camera : sim::Pinhole {
   double rate_hz = 0;  ///< 0: unknown
 };
 

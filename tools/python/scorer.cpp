@@ -159,7 +159,7 @@ Detections detections_of(const OptionalArray& rebels, const OptionalArray& boxes
 void note(const Detections& detections, const Frame& frame, recording::FrameRecord& record) {
   const auto& [layers, masks] = std::tie(detections.boxes.layers, detections.boxes.masks);
   add_or_refuse(fmt::format("frame {}", record.index), [&] {
-    recording::FrameDetections said(record, bench::intrinsics(frame.run->scenario->camera.pinhole));
+    recording::FrameDetections said(record, bench::intrinsics(frame.run->scenario->camera));
     for (const Square& square : layers.squares) {
       if (const auto mask = masks.find(square.id); mask != masks.end()) {
         said.add_mask(square.id, mask->second, detections.masks_px);
