@@ -78,9 +78,11 @@ EgoMotion turning(double rate_radps) {
 }
 
 std::vector<Warned> watched(const Recording& recording) {
-  MotionWatch watch;
+  WarningWatch watch(Truth::unknown);
   for (const FrameRecord& frame : recording.frames) watch.add(frame);
-  return watch.warnings();
+  std::vector<Warned> all = watch.warned({});
+  std::erase_if(all, [](const Warned& warning) { return !warning.count; });
+  return all;
 }
 
 /// The keywords of the given warnings, with a space after each.

@@ -129,17 +129,23 @@ std::pair<int, int> rebel_parts(const FrameRecord& frame) {
 
 }  // namespace
 
-void MotionWatch::add(const FrameRecord& frame) {
-  constexpr double kStep_m = 1;
-  const bool is_first = frames_++ == 0;
-  if (is_first) start_ns_ = frame.t_ns;
+void WarningWatch::add(const FrameRecord& frame) {
+  if (frames_++ == 0) start_ns_ = frame.t_ns;
   const double t_s = 1e-9 * static_cast<double>(frame.t_ns - start_ns_);
+  if (frame.corners_px.size() < kFewCorners) few_.add(t_s);
+  if (!is_recorded_) return;
+  watch_motion(frame, t_s);
+  watch_rebels(frame, t_s);
+}
+
+void WarningWatch::watch_motion(const FrameRecord& frame, double t_s) {
+  constexpr double kStep_m = 1;
   const double speed_mps = frame.motion.v_C_mps.norm();
   if (speed_mps > kRunawaySpeed_mps) {
     if (runaway_.count == 0) runaway_mps_ = speed_mps;
     runaway_.add(t_s);
   }
-  if (is_first) {
+  if (frames_ == 1) {
     stretch_px_ = frame.corners_px;
   } else {
     if (goes_straight(frame.motion) && shifted(previous_px_, frame.corners_px)) turns_.add(t_s);
@@ -152,7 +158,9 @@ void MotionWatch::add(const FrameRecord& frame) {
     }
   }
   previous_px_ = frame.corners_px;
+}
 
+void WarningWatch::watch_rebels(const FrameRecord& frame, double t_s) {
   if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) return;
   ++judged_;
   const auto rebels = std::ranges::count(frame.verdicts, Verdict::rebel);
@@ -165,16 +173,22 @@ void MotionWatch::add(const FrameRecord& frame) {
   parts_ += all;
 }
 
-std::vector<Warned> MotionWatch::warnings() const {
+std::vector<Warned> WarningWatch::of_frames() const {
   constexpr std::int64_t kFewestTurns = 5, kFewestStretches = 3;
   constexpr double kNearlyAlways = 0.9, kWhole = 0.7;
-  const auto warned = [](const char* word, const Sign& sign, bool is_met, std::string text) {
+  const auto warned = [&](const char* word, const Sign& sign, bool is_met, std::string text) {
+    const bool is_checked = frames_ > 0 && (is_recorded_ || &sign == &few_);
+    if (!is_checked) return Warned{word, std::nullopt, ""};
     return is_met ? Warned{word, sign.count, std::move(text)} : Warned{word, 0, ""};
   };
   const bool is_always =
       static_cast<double>(stands_.count) >= kNearlyAlways * static_cast<double>(stretches_);
   const double share = parts_ > 0 ? static_cast<double>(rebel_parts_) / parts_ : 0;
   return {
+      warned("few_corners", few_, 2 * few_.count > frames_,
+             fmt::format("fewer than {} corners are in {} of {} frames, first at {:.2f} s: see "
+                         "what the camera sees (video.mp4), or lower corners.threshold",
+                         kFewCorners, few_.count, frames_, few_.first_s)),
       warned("runaway_speed", runaway_, runaway_.count > 0,
              fmt::format("the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's "
                          "biases by a time at rest, a start with its speed, or readings in m/s",
@@ -198,23 +212,6 @@ std::vector<Warned> MotionWatch::warnings() const {
   };
 }
 
-void WarningWatch::add(const FrameRecord& frame) {
-  if (frames_++ == 0) start_ns_ = frame.t_ns;
-  if (frame.corners_px.size() < kFewCorners) {
-    few_.add(1e-9 * static_cast<double>(frame.t_ns - start_ns_));
-  }
-  if (is_recorded_) motion_.add(frame);
-}
-
-Warned WarningWatch::few_corners() const {
-  if (frames_ == 0) return {"few_corners", std::nullopt, ""};
-  if (2 * few_.count <= frames_) return {"few_corners", 0, ""};
-  return {"few_corners", few_.count,
-          fmt::format("fewer than {} corners are in {} of {} frames, first at {:.2f} s: see what "
-                      "the camera sees (video.mp4), or lower corners.threshold",
-                      kFewCorners, few_.count, frames_, few_.first_s)};
-}
-
 std::vector<Warned> WarningWatch::warned(const std::optional<sim::Warnings>& world) const {
   std::vector<Warned> all;
   for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
@@ -223,11 +220,7 @@ std::vector<Warned> WarningWatch::warned(const std::optional<sim::Warnings>& wor
     const sim::Warnings::Met& met = world->of(static_cast<sim::Warning>(i));
     all.back() = {sim::kWarnings[i].word, met.count, met.first};
   }
-  all.push_back(few_corners());
-  for (const Warned& warning : motion_.warnings()) {
-    all.push_back(warning);
-    if (!is_recorded_ || frames_ == 0) all.back().count.reset();
-  }
+  std::ranges::move(of_frames(), std::back_inserter(all));
   return all;
 }
 

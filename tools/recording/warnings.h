@@ -44,7 +44,8 @@ inline constexpr double kRunawaySpeed_mps = 70;
 /// A larger share of rebels is implausible: most of the scene does not move by itself.
 inline constexpr double kManyRebels = 0.3;
 
-/// Watches a run for four warnings, in this order:
+/// Watches a run for images with too few corners, and a recording for four warnings more, in this
+/// order:
 ///
 /// * runaway_speed: estimated speeds above `kRunawaySpeed_mps`;
 /// * turn_not_told: most corners have moved by the same vector of 3 px or more, but the estimated
@@ -53,27 +54,6 @@ inline constexpr double kManyRebels = 0.3;
 ///   reported from three such stretches on, if they are nine in ten;
 /// * many_rebels: at least the share `kManyRebels` of the corners are rebels; reported if this
 ///   holds in more than half of the frames.
-class MotionWatch {
- public:
-  void add(const FrameRecord& frame);
-  /// Of the frames so far.
-  std::vector<Warned> warnings() const;
-
- private:
-  using Corners = std::vector<Eigen::Vector2f>;
-  Sign runaway_, turns_, stands_, rebels_;
-  std::int64_t frames_ = 0;
-  std::int64_t start_ns_ = 0;        ///< time of the first frame
-  double runaway_mps_ = 0;           ///< the first speed above `kRunawaySpeed_mps`
-  Corners previous_px_;              ///< corners of the previous frame
-  Corners stretch_px_;               ///< corners at the start of the present stretch
-  double gone_m_ = 0;                ///< way in this stretch
-  std::int64_t stretches_ = 0;       ///< finished ones
-  std::int64_t judged_ = 0;          ///< frames that are judged by their rebels
-  int rebel_parts_ = 0, parts_ = 0;  ///< of the picture, in frames with many rebels
-};
-
-/// Watches the frames of a run for warnings.
 class WarningWatch {
  public:
   explicit WarningWatch(Truth truth) : is_recorded_(truth != Truth::all) {}
@@ -85,13 +65,22 @@ class WarningWatch {
   std::vector<Warned> warned(const std::optional<sim::Warnings>& world) const;
 
  private:
-  Warned few_corners() const;
+  using Corners = std::vector<Eigen::Vector2f>;
+  void watch_motion(const FrameRecord& frame, double t_s);
+  void watch_rebels(const FrameRecord& frame, double t_s);
+  std::vector<Warned> of_frames() const;
 
   bool is_recorded_;
-  MotionWatch motion_;
-  Sign few_;  ///< with few corners
+  Sign few_, runaway_, turns_, stands_, rebels_;
   std::int64_t frames_ = 0;
-  std::int64_t start_ns_ = 0;  ///< time of the first frame
+  std::int64_t start_ns_ = 0;        ///< time of the first frame
+  double runaway_mps_ = 0;           ///< the first speed above `kRunawaySpeed_mps`
+  Corners previous_px_;              ///< corners of the previous frame
+  Corners stretch_px_;               ///< corners at the start of the present stretch
+  double gone_m_ = 0;                ///< way in this stretch
+  std::int64_t stretches_ = 0;       ///< finished ones
+  std::int64_t judged_ = 0;          ///< frames that are judged by their rebels
+  int rebel_parts_ = 0, parts_ = 0;  ///< of the picture, in frames with many rebels
 };
 
 /// One readable line for each warning that occurred.
