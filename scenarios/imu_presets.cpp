@@ -1,7 +1,6 @@
 #include "scenarios/imu_presets.h"
 
 #include <array>
-#include <ranges>
 #include <utility>
 
 namespace lcs::scenario {
@@ -18,8 +17,9 @@ constexpr std::array<std::pair<std::string_view, ImuNoise>, 4> presets{{
 }  // namespace
 
 std::vector<std::string> imu_preset_names() {
-  const auto names = presets | std::views::keys;
-  return {names.begin(), names.end()};
+  std::vector<std::string> names;
+  for (const auto& [name, noise] : presets) names.emplace_back(name);
+  return names;
 }
 
 std::optional<ImuNoise> imu_preset(std::string_view name) {
