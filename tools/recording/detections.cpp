@@ -153,17 +153,52 @@ FrameDetections::FrameDetections(FrameRecord& frame, const std::optional<Intrins
 }
 
 void FrameDetections::add(std::string_view type, std::span<const std::string_view> values) {
+  const auto require = [&](bool are_all, const char* names) {
+    if (!are_all) refuse("not all of a {} is there; give {}", type, names);
+  };
+  const auto pair = [&](std::size_t first, const char* x, const char* y) {
+    const double of_x = number(values[first], x);
+    return Vec2(of_x, number(values[first + 1], y));
+  };
   const auto verdict = std::ranges::find(kVerdicts, type);
   if (verdict != kVerdicts.end()) {
     add_verdict(static_cast<Verdict>(verdict - kVerdicts.begin()), values);
   } else if (type == "box") {
-    add_box(values);
+    require(values.size() == 5, "ID,LEFT,TOP,WIDTH,HEIGHT");
+    const Vec2 corner = pair(1, "left", "top"), size = pair(3, "width", "height");
+    add_box(id_in(values[0]), corner, size);
   } else if (type == "mask") {
-    add_mask(values);
+    require(values.size() >= 4, "ID,HEIGHT,WIDTH,COUNTS");
+    const auto side = [&](std::size_t i, const char* what) {
+      const std::optional<int> px = files::number_in<int>(values[i]);
+      if (!px || *px < 1) refuse("{} is '{}'; give the picture's size", what, values[i]);
+      return *px;
+    };
+    const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
+    require_picture(size_px);
+    const Id id = id_in(values[0]);
+    add_mask(id, sim::mask_of(counts_in(values.subspan(3)), size_px), size_px);
   } else if (type == "square") {
-    add_square(values);
+    require(values.size() >= 5 && values.size() % 2 == 1,
+            "ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of its outline");
+    Square square;
+    square.id = id_in(values[0]);
+    square.location = pair(1, "x", "y");
+    square.half_size = pair(3, "half width", "half height");
+    const std::size_t points = (values.size() - 5) / 2;
+    if (points > Outline::kMost) {
+      refuse("the outline has {} points; give {} at the most", points, Outline::kMost);
+    }
+    square.outline.count = static_cast<int>(points);
+    for (std::size_t i = 5; Vec2 & vertex : square.outline.vertices()) {
+      vertex = pair(i, "x of the outline", "y of the outline");
+      i += 2;
+    }
+    add_square(square);
   } else if (type == "circle") {
-    add_circle(values);
+    gives_circles_ = true;
+    require(values.empty() || values.size() == 3, "X,Y,RADIUS, or nothing");
+    if (!values.empty()) add_circle(pair(0, "x", "y"), number(values[2], "radius"));
   } else {
     refuse("there is no type '{}'; give {}, box, mask, square or circle", type,
            fmt::join(kVerdicts, ", "));
@@ -172,7 +207,16 @@ void FrameDetections::add(std::string_view type, std::span<const std::string_vie
 
 void FrameDetections::add_verdict(Verdict verdict, std::span<const std::string_view> values) {
   if (values.size() == 1) {
-    const std::size_t corner = corner_by_index(values[0]);
+    const auto corner =
+        number<std::size_t>(values[0], "the corner", "give its index from 0 on, or x and y");
+    if (corner >= named_.size()) {
+      refuse("there is no corner {}: frame {} has {}; count them from 0", corner, frame_->index,
+             named_.size());
+    }
+    if (named_[corner]) {
+      refuse("corner {} of frame {} has a verdict already; give one for each", corner,
+             frame_->index);
+    }
     frame_->verdicts[corner] = verdict;
     named_[corner] = 1;
   } else if (values.size() == 2) {
@@ -188,19 +232,6 @@ void FrameDetections::add_verdict(Verdict verdict, std::span<const std::string_v
            kVerdicts[static_cast<std::size_t>(verdict)]);
   }
   ++counts_.verdicts;
-}
-
-std::size_t FrameDetections::corner_by_index(std::string_view text) const {
-  const auto index =
-      number<std::size_t>(text, "the corner", "give its index from 0 on, or x and y");
-  if (index >= named_.size()) {
-    refuse("there is no corner {}: frame {} has {}; count them from 0", index, frame_->index,
-           named_.size());
-  }
-  if (named_[index]) {
-    refuse("corner {} of frame {} has a verdict already; give one for each", index, frame_->index);
-  }
-  return index;
 }
 
 void FrameDetections::require_picture(const cv::Size& size_px) const {
@@ -257,13 +288,6 @@ void FrameDetections::require_in_picture(const char* what, const Box& shape,
   }
 }
 
-void FrameDetections::add_box(std::span<const std::string_view> values) {
-  if (values.size() != 5) refuse("not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT");
-  const Vec2 corner(number(values[1], "left"), number(values[2], "top"));
-  const Vec2 size(number(values[3], "width"), number(values[4], "height"));
-  add_box(id_in(values[0]), corner, size);
-}
-
 void FrameDetections::add_box(Id id, const Vec2& corner, const Vec2& size) {
   require_finite(corner.x(), "left");
   require_finite(corner.y(), "top");
@@ -272,47 +296,11 @@ void FrameDetections::add_box(Id id, const Vec2& corner, const Vec2& size) {
   add_square(square_of(id, corner, size));
 }
 
-void FrameDetections::add_mask(std::span<const std::string_view> values) {
-  if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
-  const auto side = [&](std::size_t i, const char* what) {
-    const std::optional<int> px = files::number_in<int>(values[i]);
-    if (!px || *px < 1) refuse("{} is '{}'; give the picture's size", what, values[i]);
-    return *px;
-  };
-  const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
-  require_picture(size_px);
-  const Id id = id_in(values[0]);
-  add_mask(id, sim::mask_of(counts_in(values.subspan(3)), size_px), size_px);
-}
-
 void FrameDetections::add_mask(Id id, sim::Mask mask, const cv::Size& size_px) {
   require_picture(size_px);
   if (mask.box.empty()) refuse("the mask has no pixel; leave out what is not seen");
   add_square(square_of(mask, id));
   frame_->masks[id] = std::move(mask);
-}
-
-void FrameDetections::add_square(std::span<const std::string_view> values) {
-  if (values.size() < 5 || values.size() % 2 != 1) {
-    refuse(
-        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
-        "its outline");
-  }
-  Square square;
-  square.id = id_in(values[0]);
-  square.location = {number(values[1], "x"), number(values[2], "y")};
-  square.half_size = {number(values[3], "half width"), number(values[4], "half height")};
-  Outline& outline = square.outline;
-  const std::size_t points = (values.size() - 5) / 2;
-  if (points > Outline::kMost) {
-    refuse("the outline has {} points; give {} at the most", points, Outline::kMost);
-  }
-  outline.count = static_cast<int>(points);
-  for (std::size_t i = 5; Vec2 & vertex : outline.vertices()) {
-    vertex.x() = number(values[i++], "x of the outline");
-    vertex.y() = number(values[i++], "y of the outline");
-  }
-  add_square(square);
 }
 
 void FrameDetections::add_square(const Square& square) {
@@ -338,13 +326,6 @@ void FrameDetections::add_square(const Square& square) {
     refuse("the frame has a box {} already; an id is one object's", square.id);
   }
   squares.push_back(square);
-}
-
-void FrameDetections::add_circle(std::span<const std::string_view> values) {
-  gives_circles_ = true;
-  if (values.empty()) return;
-  if (values.size() != 3) refuse("not all of a circle is there; give X,Y,RADIUS, or nothing");
-  add_circle({number(values[0], "x"), number(values[1], "y")}, number(values[2], "radius"));
 }
 
 void FrameDetections::add_circle(const Vec2& location, double radius) {

@@ -80,11 +80,6 @@ class FrameDetections {
   };
 
   void add_verdict(Verdict verdict, std::span<const std::string_view> values);
-  std::size_t corner_by_index(std::string_view text) const;
-  void add_box(std::span<const std::string_view> values);
-  void add_mask(std::span<const std::string_view> values);
-  void add_square(std::span<const std::string_view> values);
-  void add_circle(std::span<const std::string_view> values);
   void require_picture(const cv::Size& size_px) const;
   void require_in_picture(const char* what, const Box& shape, double margin_px) const;
 
