@@ -142,7 +142,7 @@ void read(Json json, Sightings valid) {
   valid.chain.count = read_points(json, valid.chain.sightings);
 }
 
-/// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
+/// Reads COCO's run-length string; `require_filled` checks that the runs fill the box.
 void read(Json json, Form<sim::PixelRuns> runs) {
   std::string_view word;
   read(json, word);
@@ -162,6 +162,20 @@ template <class Value>
 constexpr bool kMayLack = false;
 template <class Value>
 constexpr bool kMayLack<Form<Value>> = true;
+
+/// Checks that the runs of a mask add up to its box. Older files have no masks of objects.
+template <class Item>
+void require_filled(const Item& item, std::size_t row) {
+  if (item.mask.empty() && std::is_same_v<Item, sim::ObjectTruth>) return;
+  const std::int64_t width = std::int64_t{item.right} - item.left,
+                     height = std::int64_t{item.bottom} - item.top;
+  std::int64_t sum = 0;
+  for (const std::uint32_t run : item.mask) sum += run;
+  if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px ||
+      sum != width * height) {
+    fail_reading(".mask[{}] is not as large as its box", row);
+  }
+}
 
 /// Reads items that are stored by column.
 template <class Item>
@@ -195,6 +209,7 @@ void read(Json json, std::vector<Item>& items) {
       }
       ++cells[place];
     });
+    if constexpr (requires { item.mask; }) require_filled(item, row);
     items.push_back(item);
   }
 }
@@ -206,31 +221,6 @@ void read_member(Json json, const char* key, auto&& out) {
   const Json value = member(json, key);
   within(fmt::format(".{}", key), [&] { read(value, out); });
 }
-template <class Item>
-std::vector<Item> read_columns(Json json, const char* key) {
-  std::vector<Item> items;
-  read_member(json, key, items);
-  return items;
-}
-
-/// Checks that the runs of each mask add up to its box.
-template <class Item>
-std::vector<Item> read_masks(Json json, const char* key, bool may_lack) {
-  std::vector<Item> items = read_columns<Item>(json, key);
-  for (const Item& item : items) {
-    if (item.mask.empty() && may_lack) continue;
-    const std::int64_t width = std::int64_t{item.right} - item.left,
-                       height = std::int64_t{item.bottom} - item.top;
-    std::int64_t sum = 0;
-    for (const std::uint32_t run : item.mask) sum += run;
-    if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px ||
-        sum != width * height) {
-      fail_reading(".{}.mask[{}] is not as large as its box", key, &item - items.data());
-    }
-  }
-  return items;
-}
-
 void read(Json json, EgoMotion& motion) {
   Eigen::Matrix3d by_rows;
   read_member(json, "dt_s", motion.dt_s);
@@ -273,7 +263,9 @@ void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "index", frame.index);
   read_member(json, "t_ns", frame.t_ns);
   read_member(json, "told_motion", frame.motion);
-  for (const CornerRow& corner : read_columns<CornerRow>(json, "corners")) {
+  std::vector<CornerRow> corners;
+  read_member(json, "corners", corners);
+  for (const CornerRow& corner : corners) {
     frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
     frame.verdicts.push_back(corner.verdict);
     frame.reasons.push_back(corner.reason);
@@ -300,7 +292,9 @@ void read_layers(Json json, FrameRecord& frame) {
   read_member(json, "collectors", frame.paper.collectors);
   read_member(json, "chains", frame.paper.chains);
   if (find(json, "masks")) {
-    for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
+    std::vector<MaskRow> rows;
+    read_member(json, "masks", rows);
+    for (MaskRow& row : rows) {
       frame.masks[row.square] = {
           cv::Rect(cv::Point(row.left, row.top), cv::Point(row.right, row.bottom)),
           std::move(row.mask)};
@@ -316,7 +310,7 @@ void read_truth(Json json, FrameRecord& frame) {
   if (index != frame.index) fail_reading("index differs from the layers' index");
   read_member(json, "true_motion", frame.true_motion);
   read_member(json, "corners", frame.corner_truth);
-  frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
+  read_member(json, "objects", frame.object_truth);
   if (find(json, "labels")) read_member(json, "labels", frame.labels.emplace());
 }
 
@@ -410,6 +404,34 @@ void read_detector_of(const std::filesystem::path& folder, RunInfo& recording) {
 
 }  // namespace
 
+/// A letter above '0' holds five bits, lowest first; 32 marks a continuation, 16 in the last letter
+/// a negative number. From the fourth on, a number is the difference to the last but one.
+std::vector<std::int64_t> unpacked_runs(std::string_view word) {
+  constexpr int kMostShift = 35;  // of an image's runs
+  std::vector<std::int64_t> runs;
+  std::int64_t number = 0;
+  int shift = 0;
+  for (const char letter : word) {
+    const int bits = letter - '0';
+    if (bits < 0 || bits > 63 || shift >= kMostShift) {
+      throw std::invalid_argument(input::printable(fmt::format(
+          "the mask's counts have '{}' where none can be; give COCO's word or its numbers",
+          letter)));
+    }
+    number |= std::int64_t{bits & 31} << shift;
+    shift += 5;
+    if ((bits & 32) != 0) continue;
+    if ((bits & 16) != 0) number -= std::int64_t{1} << shift;
+    if (runs.size() > 2) number += runs[runs.size() - 2];
+    runs.push_back(number);
+    number = shift = 0;
+  }
+  if (shift > 0) {
+    throw std::invalid_argument("the mask's counts end within a number; give all of them");
+  }
+  return runs;
+}
+
 std::filesystem::path stored(const std::filesystem::path& folder, const char* name) {
   const std::filesystem::path plain = folder / name;
   std::filesystem::path compressed = plain;
@@ -498,7 +520,7 @@ const FrameRecord* SeenReader::at(std::int64_t t_ns) {
       read_member(json, "t_ns", frame.t_ns);
       read_member(json, "corners", frame.corners_px);
       read_member(json, "truth", frame.corner_truth);
-      frame.object_truth = read_masks<sim::ObjectTruth>(json, "objects", true);
+      read_member(json, "objects", frame.object_truth);
       if (frame.corner_truth.size() != frame.corners_px.size()) {
         fail_reading("truth is of another number of corners");
       }
@@ -522,9 +544,8 @@ std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesyst
       continue;
     }
     while (next < frame && truth.skip()) ++next;
-    truth.require_next(
-        [&](Json json) { objects.push_back(read_masks<sim::ObjectTruth>(json, "objects", true)); },
-        fmt::format("ends before frame {}", frame));
+    truth.require_next([&](Json json) { read_member(json, "objects", objects.emplace_back()); },
+                       fmt::format("ends before frame {}", frame));
     ++next;
   }
   return objects;

@@ -216,6 +216,22 @@ std::string header_line(const RunInfo& run) {
 
 }  // namespace
 
+std::string packed_runs(const sim::PixelRuns& runs) {
+  std::string word;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::int64_t number = runs[i];
+    if (i > 2) number -= runs[i - 2];
+    for (bool more = true; more;) {
+      int bits = static_cast<int>(number & 31);
+      number >>= 5;
+      more = number != ((bits & 16) != 0 ? -1 : 0);
+      if (more) bits |= 32;
+      word += static_cast<char>('0' + bits);
+    }
+  }
+  return word;
+}
+
 std::string layers_line(const FrameRecord& frame) {
   return line(frame, [&](std::string& out) {
     const Layers& layers = frame.layers;
