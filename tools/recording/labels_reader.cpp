@@ -79,27 +79,6 @@ struct Numbered {
   }
 };
 
-void read_mot_row(std::string_view line, Numbered& numbered) {
-  const LabelRow row(files::fields_of(line), 6, "FRAME,ID,LEFT,TOP,WIDTH,HEIGHT");
-  const int picture = row.whole(0, "the frame", 0, kMostPictures);
-  const int id = row.whole(1, "the id", -1, kMostPictures);
-  LabelledBox box = box_of(id, row.number(2, "the left side") - 1, row.number(3, "the top") - 1,
-                           row.number(4, "the width"), row.number(5, "the height"));
-  box.ignored = row.fields.size() > 6 && row.number(6, "the seventh field") == 0;
-  numbered.add(picture, box);
-}
-
-void read_kitti_row(std::string_view line, Numbered& numbered) {
-  const LabelRow row(files::words_of(line), 10,
-                     "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM");
-  const double left = row.number(6, "the left side"), top = row.number(7, "the top");
-  LabelledBox box =
-      box_of(row.whole(1, "the id", -1, kMostPictures), left, top,
-             row.number(8, "the right side") - left, row.number(9, "the bottom") - top);
-  box.ignored = row.fields[2] == "DontCare";
-  numbered.add(row.whole(0, "the frame", 0, kMostPictures), box);
-}
-
 Labels read_rows(const std::filesystem::path& file, const auto& read_row) {
   input::InputFile input(file, kLabelsFile);
   Numbered numbered;
@@ -118,7 +97,15 @@ Labels read_rows(const std::filesystem::path& file, const auto& read_row) {
 }
 
 Labels read_mot(const std::filesystem::path& file) {
-  Labels labels = read_rows(file, read_mot_row);
+  Labels labels = read_rows(file, [](std::string_view line, Numbered& numbered) {
+    const LabelRow row(files::fields_of(line), 6, "FRAME,ID,LEFT,TOP,WIDTH,HEIGHT");
+    const int picture = row.whole(0, "the frame", 0, kMostPictures);
+    const int id = row.whole(1, "the id", -1, kMostPictures);
+    LabelledBox box = box_of(id, row.number(2, "the left side") - 1, row.number(3, "the top") - 1,
+                             row.number(4, "the width"), row.number(5, "the height"));
+    box.ignored = row.fields.size() > 6 && row.number(6, "the seventh field") == 0;
+    numbered.add(picture, box);
+  });
   const bool has_zero = !labels.pictures.empty() && labels.pictures.front().number == 0;
   labels.first = has_zero ? 0 : 1;
   if (has_zero) labels.remarks.emplace_back("labels: their frames count from 0, not from 1");
@@ -126,7 +113,16 @@ Labels read_mot(const std::filesystem::path& file) {
 }
 
 Labels read_kitti(const std::filesystem::path& file) {
-  Labels labels = read_rows(file, read_kitti_row);
+  Labels labels = read_rows(file, [](std::string_view line, Numbered& numbered) {
+    const LabelRow row(files::words_of(line), 10,
+                       "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM");
+    const double left = row.number(6, "the left side"), top = row.number(7, "the top");
+    LabelledBox box =
+        box_of(row.whole(1, "the id", -1, kMostPictures), left, top,
+               row.number(8, "the right side") - left, row.number(9, "the bottom") - top);
+    box.ignored = row.fields[2] == "DontCare";
+    numbered.add(row.whole(0, "the frame", 0, kMostPictures), box);
+  });
   labels.first = 0;
   labels.remarks.emplace_back(
       "labels: KITTI's boxes are of all objects, also of those at rest, which then count as "
