@@ -96,11 +96,11 @@ Vector3d middle_mean(std::vector<Vector3d> values) {
 
 Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   const Part all = part_of(readings);
-  Rest rest{readings.front().t_ns, all.end_ns, all.gyro()};
+  Rest rest{{readings.front().t_ns, {}, all.gyro()}, all.end_ns};
   if (all.accel().norm() > 0) {
     const Vector3d up = all.accel().normalized();
-    rest.accel_bias_mps2 = all.accel() - gravity_mps2 * up;
-    rest.q_WS = sim::least_rotation(up, Vector3d::UnitZ());
+    rest.start.accel_bias_mps2 = all.accel() - gravity_mps2 * up;
+    rest.start.state.q_WB = sim::least_rotation(up, Vector3d::UnitZ());
   }
   return rest;
 }
@@ -167,14 +167,12 @@ TrueState start_of(std::span<const sim::ImuSample> readings, const RecordingSour
   TrueState start;
   start.t_ns = readings.front().t_ns;
   if (rest) {
-    const std::string until = fmt::format("of {:.2f} s", seconds(rest->until_ns - rest->from_ns));
+    const std::string until = fmt::format("of {:.2f} s", seconds(rest->until_ns - start.t_ns));
     tally.add("times at rest at the start give the IMU's biases and what is upright", until);
     if (rest->moved) {
       tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
     }
-    start.state.q_WB = rest->q_WS;
-    start.gyro_bias_radps = rest->gyro_bias_radps;
-    start.accel_bias_mps2 = rest->accel_bias_mps2;
+    start = rest->start;
   } else if (!is_upright) {
     const Beginning beginning = beginning_of(readings);
     const bool is_at_rest = speed_mps == 0 && beginning.is_still();

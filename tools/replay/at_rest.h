@@ -13,12 +13,19 @@
 
 namespace lcs::replay {
 
-struct Rest {
-  std::int64_t from_ns = 0, until_ns = 0;  ///< the first reading, and the end of the rest
+/// State of the body, with the biases of its IMU.
+struct TrueState {
+  std::int64_t t_ns = 0;
+  NavigationState state;
   Vector3d gyro_bias_radps = Vector3d::Zero();
-  /// Along gravity only: a bias across it is indistinguishable from a tilt, and is taken for one.
   Vector3d accel_bias_mps2 = Vector3d::Zero();
-  Eigen::Quaterniond q_WS = Eigen::Quaterniond::Identity();  ///< upright by the accelerometer
+};
+
+struct Rest {
+  /// At the first reading, upright by the accelerometer. The bias of that is along gravity only:
+  /// one across it is indistinguishable from a tilt, and is taken for one.
+  TrueState start;
+  std::int64_t until_ns = 0;
   bool moved = false;  ///< the readings contradict the given duration of rest
 };
 
@@ -41,14 +48,6 @@ struct Beginning {
 
 /// \param readings by time, from the start on; at least one.
 Beginning beginning_of(std::span<const sim::ImuSample> readings);
-
-/// State of the body, with the biases of its IMU.
-struct TrueState {
-  std::int64_t t_ns = 0;
-  NavigationState state;
-  Vector3d gyro_bias_radps = Vector3d::Zero();
-  Vector3d accel_bias_mps2 = Vector3d::Zero();
-};
 
 /// The start at the first reading, and what is told of it: upright by the accelerometer, at rest
 /// for the given or detected time, else at the given speed along the optical axis. \param readings
