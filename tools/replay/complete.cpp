@@ -180,26 +180,23 @@ void drop_held(CameraPoses& poses, Tally& tally) {
   poses = std::move(kept);
 }
 
-void move_by_imu(const RecordingSource& asked, Recorded& recorded) {
-  SensorReadings readings;
-  recorded.took.insert("time_unit");
-  const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
-  readings.imu = read_imu_csv(*asked.imu, of_imu, recorded.tally);
-  if (asked.odometry) {
-    readings.odometry = read_odometry_csv(
-        *asked.odometry,
-        {asked.time_unit, {kSlowestState_hz, kFastestState_hz, {}}, kNanosecond_ns},
-        recorded.tally);
-  }
-  move_by_readings(asked, *asked.imu, std::move(readings), recorded);
-}
-
 /// \param is_told whether the layout told already which of its motion's inputs it lacks.
 void set_motion(const RecordingSource& asked, bool times_known, bool is_told, Recorded& recorded) {
   if (asked.poses) {
     move_by_poses(asked, *asked.poses, times_known, recorded);
   } else if (asked.imu) {
-    if (times_known) move_by_imu(asked, recorded);
+    if (!times_known) return;
+    recorded.took.insert("time_unit");
+    const auto times = [&](double slowest_hz, double fastest_hz) {
+      return TableTimes{asked.time_unit, {slowest_hz, fastest_hz, {}}, kNanosecond_ns};
+    };
+    SensorReadings readings;
+    readings.imu = read_imu_csv(*asked.imu, times(kSlowestImu_hz, kFastestImu_hz), recorded.tally);
+    if (asked.odometry) {
+      readings.odometry = read_odometry_csv(
+          *asked.odometry, times(kSlowestState_hz, kFastestState_hz), recorded.tally);
+    }
+    move_by_readings(asked, *asked.imu, std::move(readings), recorded);
   } else if (asked.speed_mps && motion_is_asked(asked)) {
     recorded.motion = std::make_unique<SteadyMotion>(*asked.speed_mps, asked.mount_rpy_rad);
     if (asked.camera_height_m) recorded.took.insert("mount");

@@ -6,10 +6,7 @@
 
 #include <map>
 #include <span>
-#include <sstream>
 
-#include "scenarios/input/input_file.h"
-#include "tools/files/csv.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 
@@ -17,7 +14,7 @@ namespace lcs::replay {
 namespace {
 
 constexpr std::string_view kPrefix = "image_";
-constexpr input::FileKind kCalibration{input::kMebibyte, "give the file as KITTI has it"};
+constexpr const char* kRemedy = "give the file as KITTI has it";
 
 /// A calibration file, one "NAME: numbers" a line. Its functions throw input::Error if a line is
 /// missing, has another length, or is a matrix that is no rotation.
@@ -25,19 +22,14 @@ class KittiCalibration {
  public:
   /// Lines without a name are called P0, P1, ... \throws input::Error if it cannot be read.
   explicit KittiCalibration(const fs::path& file) : file_(file) {
-    input::InputFile input(file, kCalibration);
     int unnamed = 0;
-    for (std::string line; input.next_line(line);) {
-      const std::string_view text = files::trimmed(line);
-      if (text.empty()) continue;
-      const std::size_t end =
-          text.find_first_of(": ");  // KITTI tracking names some without a colon
-      const bool is_named =
-          end != text.npos && !files::number_in<double>(text.substr(0, end)).has_value();
-      std::istringstream words{std::string(is_named ? text.substr(end + 1) : text)};
-      std::vector<double>& numbers =
-          values_[is_named ? std::string(text.substr(0, end)) : fmt::format("P{}", unnamed++)];
-      for (double number; words >> number;) numbers.push_back(number);
+    for (const TextTable::Row& row : read_table(file).rows) {
+      const bool is_named = !TextTable::number(row, 0);
+      std::string name = is_named ? row.fields[0] : fmt::format("P{}", unnamed++);
+      if (name.ends_with(':')) name.pop_back();  // KITTI tracking names some without a colon
+      const std::size_t first = is_named ? 1 : 0;
+      const auto numbers = TextTable::numbers(row, first, row.fields.size() - first);
+      if (numbers) values_[name] = *numbers;
     }
   }
 
@@ -77,11 +69,11 @@ class KittiCalibration {
   const double* numbers(const std::string& name, std::size_t count) const {
     const auto found = values_.find(name);
     if (found != values_.end() && found->second.size() == count) return found->second.data();
-    refuse({file_}, "{} is missing, or is not {} numbers; {}", name, count, kCalibration.remedy);
+    refuse({file_}, "{} is missing, or is not {} numbers; {}", name, count, kRemedy);
   }
   Eigen::Matrix3d rotation_in(const std::string& name, const Eigen::Matrix3d& rounded) const {
     if (const auto R = rotation_of(rounded)) return *R;
-    refuse({file_}, "{} is no rotation; {}", name, kCalibration.remedy);
+    refuse({file_}, "{} is no rotation; {}", name, kRemedy);
   }
 
   fs::path file_;

@@ -134,10 +134,6 @@ CameraPoses poses_along(const std::vector<NavigationState>& states,
   return poses;
 }
 
-std::vector<MotionSource::Reading> MotionSource::other_readings() const {
-  return {};
-}
-
 std::vector<MotionSource::Reading> PosesMotion::other_readings() const {
   std::vector<Reading> all;
   if (!may_be_misread_) return all;

@@ -35,6 +35,12 @@ inline Eigen::Matrix3d camera_mount(const Vector3d& rpy_rad) {
 
 class MotionSource {
  public:
+  /// The same data, read as others write them.
+  struct Reading {
+    std::string remedy;  ///< what to change where this reading fits, as "they are ...: give ..."
+    std::unique_ptr<MotionSource> motion;
+  };
+
   virtual ~MotionSource() = default;
 
   /// Motion since the previous frame; all 0 for the first one. Times must increase.
@@ -46,17 +52,10 @@ class MotionSource {
   /// The exact motion to the last frame; absent if unknown.
   virtual std::optional<EgoMotion> exact() const { return std::nullopt; }
 
-  /// The same data, read as others write them.
-  struct Reading;
-  virtual std::vector<Reading> other_readings() const;
+  virtual std::vector<Reading> other_readings() const { return {}; }
 
   /// Counts of the faults in its readings so far.
   virtual Diagnostics diagnostics() const { return {}; }
-};
-
-struct MotionSource::Reading {
-  std::string remedy;  ///< what to change where this reading fits, as "they are ...: give ..."
-  std::unique_ptr<MotionSource> motion;
 };
 
 /// Constant velocity along the optical axis; the rotation is unknown.

@@ -322,16 +322,6 @@ constexpr std::array<const char*, 16> kTruthNames{
     "q_RS_z",     "v_RS_R_x",   "v_RS_R_y",   "v_RS_R_z",  "b_w_RS_S_x", "b_w_RS_S_y",
     "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
 
-/// The quaternion behind the place; absent, and counted, if it is not of length 1.
-std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row, const fs::path& file,
-                                              Tally& tally) {
-  constexpr double kUnit = 1e-2;  // largest error in the length of a rounded quaternion
-  const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
-  if (std::abs(q.norm() - 1) <= kUnit) return q.normalized();
-  tally.add("rows have no unit quaternion and are left out", file.string());
-  return std::nullopt;
-}
-
 /// Counts gaps between readings that exceed four of their usual periods.
 void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
   constexpr double kSilentPeriods = 4;
@@ -470,9 +460,12 @@ std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& ti
       tally.add("rows have a speed above 1000 m/s and are left out", file.string());
       continue;
     }
-    const auto q_WB = attitude_in(row, file, tally);
-    if (!q_WB) continue;
-    TrueState& state = states.emplace_back(TrueState{row.t_ns, {row.t_ns, *q_WB}});
+    const Eigen::Quaterniond q_WB(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
+    if (!(std::abs(q_WB.norm() - 1) <= kTolerance)) {
+      tally.add("rows have no unit quaternion and are left out", file.string());
+      continue;
+    }
+    TrueState& state = states.emplace_back(TrueState{row.t_ns, {row.t_ns, q_WB.normalized()}});
     places_m.push_back(vector_at(row, 0));
     if (!has_velocities) continue;
     state.state.v_WB_mps = vector_at(row, 7);

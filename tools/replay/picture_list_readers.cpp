@@ -78,29 +78,28 @@ fs::path list_of(const fs::path& folder, const CameraKind& camera) {
   return folder / (name.substr(0, name.find('/')) + ".timestamps");
 }
 
-const CameraKind* first_camera(const fs::path& folder) {
+/// The camera of a name, or of none the first one that has its list of pictures; null: not there.
+const CameraKind* camera_in(const fs::path& folder, const std::string& name) {
   const auto found = std::ranges::find_if(kCameras, [&](const CameraKind& camera) {
-    return fs::is_directory(folder / camera.name) && fs::exists(list_of(folder, camera));
+    return name.empty()
+               ? fs::is_directory(folder / camera.name) && fs::exists(list_of(folder, camera))
+               : name == camera.name;
   });
   return found == std::end(kCameras) ? nullptr : found;
 }
 
 const CameraKind& camera_of(const RecordingSource& asked) {
+  if (const CameraKind* found = camera_in(asked.path, asked.camera)) return *found;
   if (asked.camera.empty()) {
-    if (const CameraKind* first = first_camera(asked.path)) return *first;
     refuse({},
            "{} has no camera with its list of pictures; give one, as stereo/centre with "
            "stereo.timestamps",
            asked.path.string());
   }
-  const auto found = std::ranges::find(kCameras, asked.camera, &CameraKind::name);
-  if (found == std::end(kCameras)) {
-    refuse(asked.source,
-           "the camera is '{}'; give stereo/left, stereo/centre, stereo/right, mono_left, "
-           "mono_right or mono_rear",
-           asked.camera);
-  }
-  return *found;
+  refuse(asked.source,
+         "the camera is '{}'; give stereo/left, stereo/centre, stereo/right, mono_left, "
+         "mono_right or mono_rear",
+         asked.camera);
 }
 
 /// Converts from the unit's axes (north, east, down; ahead, right, down) to ours (east, north, up;
@@ -283,7 +282,7 @@ Recorded read_rpg_events(const RecordingSource& asked, bool exact_motion) {
 }
 
 bool is_robotcar(const fs::path& folder) {
-  return first_camera(folder) != nullptr;
+  return camera_in(folder, "") != nullptr;
 }
 
 Recorded read_robotcar(const RecordingSource& asked, bool) {

@@ -51,16 +51,6 @@ void require_one_clock(const std::vector<std::int64_t>& t_ns, const std::string&
          distinct + 1, t_ns.size());
 }
 
-Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source) {
-  Lens lens;
-  lens.fu_px = numbers[0];
-  lens.fv_px = numbers[1];
-  lens.cu_px = numbers[2];
-  lens.cv_px = numbers[3];
-  lens.source = source;
-  return lens;
-}
-
 std::string RecordedFrame::name() const {
   return picture.empty() ? fmt::format("picture {}", number) : picture.filename().string();
 }

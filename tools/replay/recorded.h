@@ -135,8 +135,10 @@ void sort_by_time(std::vector<Timed>& items, const std::string& plural, const st
 
 using sim::Lens;
 
-/// A lens without distortion. \param numbers fu, fv, cu, cv, in pixels. \param source of them.
-Lens pinhole(const std::array<double, 4>& numbers, const input::Source& source);
+/// A lens without distortion. \param n fu, fv, cu, cv, in pixels. \param source of them.
+inline Lens pinhole(const std::array<double, 4>& n, const input::Source& source) {
+  return {n[0], n[1], n[2], n[3], {}, {}, 0, 0, false, 0, 0, source};
+}
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;

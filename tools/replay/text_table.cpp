@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "scenarios/input/input_file.h"
@@ -113,26 +113,17 @@ void refuse_foreign(const fs::path& file, const std::vector<std::string>& before
   }
 }
 
-std::optional<int> whole_within(std::string_view text, int least, int most) {
-  const auto number = files::number_in<int>(text);
-  return number && *number >= least && *number <= most ? number : std::nullopt;
-}
-
 constexpr std::int64_t kTick_ns = 100'000;  // of Xsens, whose columns alone state it
 
 struct TimeUnit {
   std::int64_t ns;
   std::vector<std::string_view> names;  ///< the shortest first
 };
-const std::vector<TimeUnit>& time_units() {
-  static const std::vector<TimeUnit> kUnits{
-      {kSecond_ns, {"s", "sec", "secs", "second", "seconds"}},
-      {kMillisecond_ns, {"ms", "msec", "millis", "milliseconds"}},
-      {kMicrosecond_ns, {"us", "usec", "microseconds", "µs"}},
-      {kNanosecond_ns, {"ns", "nsec", "nsecs", "nanosec", "nanoseconds"}},
-      {kTick_ns, {"100 us"}}};
-  return kUnits;
-}
+const TimeUnit kTimeUnits[] = {{kSecond_ns, {"s", "sec", "secs", "second", "seconds"}},
+                               {kMillisecond_ns, {"ms", "msec", "millis", "milliseconds"}},
+                               {kMicrosecond_ns, {"us", "usec", "microseconds", "µs"}},
+                               {kNanosecond_ns, {"ns", "nsec", "nsecs", "nanosec", "nanoseconds"}},
+                               {kTick_ns, {"100 us"}}};
 
 /// The unit of a column of times: in brackets, or the last word of a name as "timestamp_ns".
 std::string unit_in(const TextTable::Column& column) {
@@ -386,7 +377,7 @@ void require_zeros(const TextTable& table, std::size_t column) {
 }
 
 std::optional<std::int64_t> time_unit_named(std::string_view name) {
-  for (const TimeUnit& unit : time_units()) {
+  for (const TimeUnit& unit : kTimeUnits) {
     if (std::ranges::count(unit.names, name) > 0) return unit.ns;
   }
   return std::nullopt;
@@ -414,20 +405,16 @@ std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns)
 }
 
 std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock) {
-  const std::vector<std::string_view> days = files::split(date, '-');
-  const std::vector<std::string_view> times = files::split(clock, ':');
-  if (days.size() != 3 || times.size() != 3) return std::nullopt;
-  const auto year = whole_within(days[0], 1900, 2099), month = whole_within(days[1], 1, 12);
-  const auto day = whole_within(days[2], 1, 31), hour = whole_within(times[0], 0, 23);
-  const auto minute = whole_within(times[1], 0, 59);
-  const auto second = files::number_in<double>(times[2]);
-  if (!year || !month || !day || !hour || !minute || !second) return std::nullopt;
-  const std::chrono::year_month_day on{std::chrono::year(*year), std::chrono::month(*month),
-                                       std::chrono::day(*day)};
-  if (!on.ok() || !(*second >= 0 && *second < 61)) return std::nullopt;
-  const std::chrono::sys_time<std::chrono::nanoseconds> at =
-      std::chrono::sys_days(on) + std::chrono::hours(*hour) + std::chrono::minutes(*minute);
-  return at.time_since_epoch().count() + std::llround(*second * 1e9);
+  const std::string text = fmt::format("{} {}", date, clock);
+  std::tm at{};
+  const char* const end = ::strptime(text.c_str(), "%Y-%m-%d %H:%M:", &at);
+  const auto second = files::number_in<double>(end ? text.substr(end - text.c_str()) : "");
+  const int day = at.tm_mday, year = 1900 + at.tm_year;
+  const std::int64_t minute_s = ::timegm(&at);  // of 31 February the day is 3 March
+  if (!second || !(*second >= 0 && *second < 61) || at.tm_mday != day) return std::nullopt;
+  const bool has_blank = std::ranges::count(text, ' ') > 1;  // as 2011- 9-26
+  if (has_blank || year < 1900 || year > 2099) return std::nullopt;
+  return minute_s * kSecond_ns + std::llround(*second * 1e9);
 }
 
 std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns) {
@@ -462,7 +449,7 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
     return unit_ns;
   };
   const auto fitting = std::ranges::find_if(
-      time_units(), [&](const TimeUnit& unit) { return unit.ns != kTick_ns && fits(unit.ns); });
+      kTimeUnits, [&](const TimeUnit& unit) { return unit.ns != kTick_ns && fits(unit.ns); });
   const std::string expected =
       rate.stated_hz
           ? fmt::format("{} states {:g} Hz", rate.stated_by, *rate.stated_hz)
@@ -471,7 +458,7 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
     refuse({file, table.rows.front().line},
            "its times are {}, which gives {:.3g} rows a second, and {}; {}", by, rate_hz(unit_ns),
            expected,
-           fitting == time_units().end()
+           fitting == std::end(kTimeUnits)
                ? "correct one of the two"
                : fmt::format("if they are in {0}, give time_unit: {0}", fitting->names.front()));
   };
@@ -486,7 +473,7 @@ std::int64_t TableTimes::unit_ns(const TextTable& table, std::size_t column, Tal
   if (by_header) contradict("in " + stated + " by its header", *by_header);
   require_no_ticks(table, column);
   if (layouts && fits(*layouts)) return chosen(*layouts);
-  if (fitting == time_units().end()) {
+  if (fitting == std::end(kTimeUnits)) {
     refuse({file, table.rows.front().line},
            "no unit of time gives its rows the rate that they can have: {}; give time_unit (s, ms, "
            "us or ns)",
