@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 
 constexpr double kMostFlowError_px = 0.05;
 constexpr int kFlowStride = 4;
-// Limits on second differences of inverse depth on a flat surface: 0 up to the rounding of the
+// Limits on deviations of inverse depth from that of a plane: 0 up to the rounding of the
 // depth buffer (24 bits between 0 and 1 / near) and of a float.
 constexpr double kFlatAbsolute = 6e-6;  // 1/m
 constexpr double kFlatRelative = 2e-5;
@@ -51,33 +51,7 @@ template <class... Arguments>
                   frame, fmt::format(what, std::forward<Arguments>(arguments)...)));
 }
 
-/// Interpolated inverse depth on a flat surface, where it is linear; absent if not flat.
-std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vector2d& px) {
-  const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
-  if (x < 1 || y < 1 || x + 2 >= truth.depth_m.cols || y + 2 >= truth.depth_m.rows) return {};
-  const auto w = [&](int column, int row) {
-    return 1 / static_cast<double>(truth.depth_m(row, column));
-  };
-  const double centre = w(x, y);
-  const auto is_flat = [&](double a, double b, double c, double d) {
-    return std::abs(a - 2 * b + c) + std::abs(b - 2 * c + d) <
-           kFlatAbsolute + kFlatRelative * centre;
-  };
-  for (int row = y - 1; row <= y + 2; ++row) {
-    for (int column = x - 1; column <= x + 2; ++column) {
-      if (truth.carrier()(row, column) != truth.carrier()(y, x)) return {};
-    }
-    if (!is_flat(w(x - 1, row), w(x, row), w(x + 1, row), w(x + 2, row))) return {};
-  }
-  for (int column = x - 1; column <= x + 2; ++column) {
-    if (!is_flat(w(column, y - 1), w(column, y), w(column, y + 1), w(column, y + 2))) return {};
-  }
-  const double fx = px.x() - x, fy = px.y() - y;
-  return (1 - fy) * ((1 - fx) * centre + fx * w(x + 1, y)) +
-         fy * ((1 - fx) * w(x, y + 1) + fx * w(x + 1, y + 1));
-}
-
-/// The same for any optics: on a flat surface the inverse depth is linear in the ray.
+/// Interpolated inverse depth on a flat surface, where it is linear in the ray; absent if not flat.
 std::optional<double> plane_inverse_depth(const sim::Optics& camera, const sim::FrameTruth& truth,
                                           const Vector2d& px) {
   const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
@@ -130,9 +104,7 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
       const int carrier = now.truth.carrier()(y, x);
       const auto there = cv::Point(static_cast<int>(goal.x()), static_cast<int>(goal.y()));
       if (carrier < 0 || next.truth.carrier()(there) != carrier) continue;
-      const std::optional<double> inverse_depth =
-          camera.is_pinhole() ? flat_inverse_depth(next.truth, goal)
-                              : plane_inverse_depth(camera, next.truth, goal);
+      const std::optional<double> inverse_depth = plane_inverse_depth(camera, next.truth, goal);
       if (!inverse_depth) continue;
       const Vector3d p_N = camera.back_project(goal, 1 / *inverse_depth);
       const auto id = static_cast<std::size_t>(carrier);
