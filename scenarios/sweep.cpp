@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "scenarios/load.h"
@@ -24,13 +25,6 @@ SweepPoint point_at(const std::vector<SweptKey>& sweep, std::size_t index) {
   return point;
 }
 
-input::Source source_of(const SweptKey& swept, const std::string& text) {
-  for (const SweptKey::Value& value : swept.values) {
-    if (value.text == text) return value.source;
-  }
-  return swept.source;
-}
-
 /// Loads the point; errors cite the value in the file.
 void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep,
            const SweepPoint& point) {
@@ -43,8 +37,10 @@ void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep
     for (std::size_t i = 0; i < sweep.size(); ++i) {
       const std::string prefix = "--set " + options.sets[i] + ": ";
       if (!message.starts_with(prefix)) continue;
-      throw input::Error(source_of(sweep[i], point.settings[i].second), "sweep.{}: {}",
-                         sweep[i].key, message.substr(prefix.size()));
+      const auto value =
+          std::ranges::find(sweep[i].values, point.settings[i].second, &SweptKey::Value::text);
+      throw input::Error(value->source, "sweep.{}: {}", sweep[i].key,
+                         message.substr(prefix.size()));
     }
     throw input::Error(sweep.front().source, "sweep, at {}: {}", fmt::join(options.sets, ", "),
                        message);

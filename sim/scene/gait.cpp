@@ -10,10 +10,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kLowered = 0.07, kBob = 0.04;  // of the trunk, in leg lengths
 constexpr double kShoulder_rad = 0.45, kElbow_rad = 0.35, kElbowSwing_rad = 0.2;
 
-double fraction(double value) {
-  return value - std::floor(value);
-}
-
 /// The ankle of a leg in the body's frame, without the height of the ankle at rest. In strides.
 struct Step {
   double ahead, up;
@@ -63,7 +59,7 @@ void Gait::place(mjModel& m, double walked_m) const {
   m.body_pos[3 * trunk_ + 2] = trunk_m_ - lower_m;
   for (std::size_t side = 0; side < 2; ++side) {
     const Leg& leg = legs_[side];
-    const double phase = fraction(strides + (side == 0 ? 0 : 0.5));
+    const double own = strides + (side == 0 ? 0 : 0.5), phase = own - std::floor(own);
     const Step step = step_at(phase);
     const double ahead_m = stride_m() * step.ahead;
     const double down_m = leg_m() - lower_m - stride_m() * step.up;

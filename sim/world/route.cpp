@@ -25,10 +25,6 @@ constexpr double kFastestTurn_radps = 4 * std::numbers::pi;
 constexpr double kPeak = 1.5;
 constexpr double kSteepest = 6;
 
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2 * std::numbers::pi);
-}
-
 double direction(const Vector2d& v) {
   return std::atan2(v.y(), v.x());
 }
@@ -76,7 +72,8 @@ Route::Route(const scenario::Ego& ego) {
     if (velocity(i).isZero(0)) continue;
     if (arrived <= i) {
       const bool is_pause = arrived < i;
-      const double by = wrapped(direction(velocity(i)) - direction(velocity(arrived - 1)));
+      const double by = std::remainder(direction(velocity(i)) - direction(velocity(arrived - 1)),
+                                       2 * std::numbers::pi);
       const double room_s =
           is_pause ? points[i].at_s - points[arrived].at_s : std::min(time_s(i - 1), time_s(i));
       const double takes_s =
