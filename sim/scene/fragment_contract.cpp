@@ -49,15 +49,6 @@ void check_actuator(const mjSpec& spec, mjsElement* e, const SpecReader& reader)
   }
 }
 
-/// The joint of a body itself with that name; nullptr without one.
-mjsElement* joint_of(const mjsBody& body, std::string_view name) {
-  mjsElement* found = nullptr;
-  for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) {
-    if (!found && name_of(e) == name) found = e;
-  });
-  return found;
-}
-
 /// \param R rotation of the joint's body in B.
 void check_axis(mjsElement* joint, mjtJoint type, const Eigen::Matrix3d& R, const Vector3d& axis,
                 const SpecReader& reader) {
@@ -77,8 +68,8 @@ void check_axis(mjsElement* joint, mjtJoint type, const Eigen::Matrix3d& R, cons
 
 void check_joint(const mjsBody& body, const char* name, mjtJoint type, const Vector3d& axis,
                  const SpecReader& reader) {
-  mjsElement* const joint = joint_of(body, name);
-  if (!joint) {
+  mjsElement* const joint = find(*mjs_getSpec(body.element), mjOBJ_JOINT, name);
+  if (!joint || mjs_getParent(joint) != &body) {
     reader.refuse(body.element, fmt::format("TAG has no joint '{}' of its own; give it one", name));
   }
   check_axis(joint, type, Eigen::Matrix3d::Identity(), axis, reader);
@@ -105,14 +96,11 @@ struct Wheel {
 
 Wheel check_wheel(const mjsBody& base, mjsElement* joint, const SpecReader& reader) {
   mjsBody* const body = mjs_getParent(joint);
-  Wheel wheel{Vector3d::Zero(), 0};
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Pose T_BW;
   for (mjsBody* b = body; b && b != &base; b = mjs_getParent(b->element)) {
-    const Pose pose = pose_in_body(b->element);
-    wheel.place_m = pose * wheel.place_m;
-    R = pose.R * R;
+    T_BW = pose_in_body(b->element) * T_BW;
   }
-  check_axis(joint, mjJNT_HINGE, R, Vector3d::UnitY(), reader);
+  check_axis(joint, mjJNT_HINGE, T_BW.R, Vector3d::UnitY(), reader);
   mjsElement* round = mjs_firstChild(body, mjOBJ_GEOM, 0);
   while (round && !is_round(mjs_asGeom(round)->type)) round = mjs_nextChild(body, round, 0);
   if (!round) {
@@ -120,8 +108,7 @@ Wheel check_wheel(const mjsBody& base, mjsElement* joint, const SpecReader& read
         "the wheel of '{}' has no sphere, cylinder or ellipsoid; give it one";
     reader.refuse(body->element, fmt::format(kNone, name_of(joint)));
   }
-  wheel.radius_m = mjs_asGeom(round)->size[0];
-  return wheel;
+  return {T_BW.p, mjs_asGeom(round)->size[0]};
 }
 
 void check_wheeled(const mjSpec& spec, const mjsBody& base, const SpecReader& reader) {
@@ -227,11 +214,8 @@ Vector3d check_actor(const Fragment& actor, const SpecReader& reader) {
 
 void check_walker(const mjsBody& base, const SpecReader& reader) {
   const auto child = [&](const mjsBody& parent, const std::string& name) -> const mjsBody& {
-    const mjsBody* found = nullptr;
-    for_each_in(parent, mjOBJ_BODY, false, [&](mjsElement* e) {
-      if (name_of(e) == name) found = mjs_asBody(e);
-    });
-    if (!found) {
+    const mjsBody* found = mjs_findChild(&parent, name.c_str());
+    if (!found || mjs_getParent(found->element) != &parent) {
       reader.refuse(parent.element, fmt::format("TAG of a walker has no body '{}'; give it one "
                                                 "(scenes/README.md, 'Rovers and actors')",
                                                 name));

@@ -66,21 +66,6 @@ std::string material_of_floor(const mjsBody& world) {
   return material;
 }
 
-/// Gives a geom the values that it has in an empty model.
-void take_no_defaults(mjsGeom& geom) {
-  const Spec empty(mj_makeSpec());
-  const mjsGeom own = geom;
-  geom = *mjs_addGeom(mjs_findBody(empty.get(), "world"), nullptr);
-  geom.element = own.element;
-  geom.material = own.material;
-  geom.hfieldname = own.hfieldname;
-  geom.meshname = own.meshname;
-  geom.userdata = own.userdata;
-  geom.plugin = own.plugin;
-  geom.info = own.info;
-  mjs_setString(geom.meshname, "");
-}
-
 }  // namespace
 
 void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
@@ -96,8 +81,8 @@ void add_ground(mjSpec& scene, const scenario::RoughGround& ground,
 
   mjsBody& world = *mjs_findBody(&scene, "world");
   const std::string material = material_of_floor(world);
-  mjsGeom& geom = *mjs_addGeom(&world, nullptr);
-  take_no_defaults(geom);
+  const Spec empty(mj_makeSpec());  // none of the scene's defaults
+  mjsGeom& geom = *mjs_addGeom(&world, mjs_getSpecDefault(empty.get()));
   mjs_setName(geom.element, kName);
   geom.type = mjGEOM_HFIELD;
   mjs_setString(geom.hfieldname, kName);
