@@ -456,8 +456,8 @@ void fields(StartTrigger& start, auto&& visit) {
 }
 
 void fields(Actor& actor, auto&& visit) {
-  auto& [name, source, body, shape, shape_file, size_m, texture, pose, kind, trajectory, start] =
-      actor;
+  auto& [name, source, body, shape, shape_file, size_m, texture, pose, kind, trajectory, joints,
+         start] = actor;
   std::optional<Shape> added;
   if (!body) added = shape;
   visit({"shape",
@@ -488,7 +488,17 @@ void fields(Actor& actor, auto&& visit) {
          "...), or any other",
          "the shape's; `object` of one's own shape and of a body"},
         kind);
-  visit({"trajectory", "how the actor moves", kRequired}, trajectory);
+  std::optional<Trajectory> moved;
+  if (joints.empty()) moved = trajectory;
+  visit({"trajectory", "how the actor moves", kOneOfThese}, moved);
+  if (moved) trajectory = *moved;
+  visit({"joint",
+         "of a body of the scene, as a door: hinges and slides in it, by name, each with "
+         "`[[time, angle or length], ...]` as `waypoints`; its other joints do not move",
+         kOneOfThese},
+        joints);
+  visit.exactly_one_of({"trajectory", "joint"});
+  visit.at_most_one_of({"shape", "joint"});
   visit({"start", "when it starts: both conditions hold", "at once"}, start);
 }
 

@@ -89,15 +89,8 @@ Kind kind_of(Plain, const TimeSpan&) {
   return each(kind_of(kDuration, 0.0));
 }
 
-Kind kind_of(Plain, const Waypoints&) {
-  return {"a list"};
-}
-
-template <class Point>
-requires std::is_same_v<Point, Waypoint> || std::is_same_v<Point, PathPose> Kind
-kind_of(Plain, const std::vector<Point>&) {
-  return {"a list"};
-}
+template <class T, class... Others>
+constexpr bool is_one_of = (std::is_same_v<T, Others> || ...);
 
 Kind kind_of(GroupNames, const std::vector<std::string>&) {
   return {"a-z, 0-9, _, -"};
@@ -105,18 +98,6 @@ Kind kind_of(GroupNames, const std::vector<std::string>&) {
 
 Kind kind_of(GroupList, const std::vector<int>&) {
   return each(kind_of(Whole{0, 5}, 0));
-}
-
-Kind kind_of(const FilterParameters&, const std::vector<FilterSetting>&) {
-  return {"a map"};
-}
-
-Kind kind_of(Plain, const std::vector<SweptKey>&) {
-  return {"a map of lists"};
-}
-
-Kind kind_of(Plain, const std::vector<RigCamera>&) {
-  return {"a map"};
 }
 
 Kind kind_of(Plain, const HasFields auto& object);
@@ -132,6 +113,18 @@ Kind kind_of(Plain, const std::vector<Actor>&) {
 }
 
 template <class Form, class T>
+Kind kind_of([[maybe_unused]] const Form& form, const std::vector<T>&) {
+  if constexpr (is_one_of<T, FilterSetting, RigCamera, SweptKey, JointMotion>) {
+    return {is_one_of<T, SweptKey, JointMotion> ? "a map of lists" : "a map"};
+  } else if constexpr (is_one_of<T, Waypoint, PathPose>) {
+    return {"a list"};
+  } else {
+    const auto usual = std::make_unique<T>();  // GCC 12 warns of a temporary's destructor
+    return {"a list", rows_in(kind_of(form, *usual).rows, "N")};
+  }
+}
+
+template <class Form, class T>
 Kind kind_of(const Form& form, const std::optional<T>&) {
   return kind_of(form, T{});
 }
@@ -141,12 +134,6 @@ Kind kind_of(const OrWord<Form>& form, const std::optional<T>&) {
   Kind kind = kind_of(form.form, T{});
   kind.takes += fmt::format(" or {}", form.word);
   return kind;
-}
-
-template <class Form, class T>
-Kind kind_of(const Form& form, const std::vector<T>&) {
-  const auto usual = std::make_unique<T>();  // GCC 12 warns of a temporary's destructor
-  return {"a list", rows_in(kind_of(form, *usual).rows, "N")};
 }
 
 /// Collects the keys of a map.

@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "scenarios/fields.h"
@@ -159,7 +159,8 @@ void read_value(const Item& item, const OwnFileOr& form, Enum& out) {
     form.file = file_beside(value, item.folder, item.path + ": there is no file ");
   } else {
     out = static_cast<Enum>(
-        input::as_choice(value, item.path, form.words, "the path of an .xml file"));
+        input::as_choice(value, item.path, form.words,
+                         "the path of an .xml file (with size and ground; it may attach a .urdf)"));
   }
 }
 
@@ -305,8 +306,19 @@ void read_value(const Item& item, Plain, std::vector<PathPose>& path) {
              });
 }
 
-void read_value(const Item& item, Plain, Waypoints& waypoints) {
-  read_value(item, Plain{}, waypoints.points);
+void read_value(const Item& item, Plain, std::vector<JointMotion>& joints) {
+  const input::Reader names(item.value, item.path);
+  for (const input::Entry& entry : item.value.entries) {
+    joints.push_back({entry.key, entry.where, {}});
+    read_timed(Item{entry.value, names.path_of(entry.key), item.folder}, 2,
+               "waypoints; give two or more [time, angle] of a hinge, or [time, length] of a slide",
+               joints.back().points, [](const Item& number, Eigen::Index, JointPoint& point) {
+                 const std::string& text = number.value.text;
+                 point.is_angle = text.ends_with("deg") || text.ends_with("rad");
+                 read_value(number, point.is_angle ? kJointAngle : kPosition, point.value);
+               });
+  }
+  if (joints.empty()) item.refuse(" has no joint; give {NAME: [[0 s, 0 deg], [2 s, 80 deg]]}");
 }
 
 /// Gaps begin after 0, because the estimator takes its initial state from the reading at 0.
@@ -326,66 +338,47 @@ void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
 
 constexpr std::string_view kNameChars = "abcdefghijklmnopqrstuvwxyz0123456789_-";
 
+/// Calls `read` for each value of a list of one or more distinct ones.
+void read_distinct(const Item& list, std::string_view remedy, const auto& read) {
+  std::set<std::string> known;
+  for (const input::Value& value : input::as_list(list.value, list.path)) {
+    read(list.at(known.size(), value));
+    const std::string text = input::line_of(value);
+    if (known.insert(text).second) continue;
+    throw input::Error(value.where, list.path + " has '" + text + "' twice; remove one");
+  }
+  if (known.empty()) list.refuse(fmt::format(" is an empty list; {}", remedy));
+}
+
 void read_value(const Item& item, GroupList, std::vector<int>& groups) {
   groups.clear();
-  for (const input::Value& value : input::as_list(item.value, item.path)) {
-    const Item next = item.at(groups.size(), value);
-    const int group = static_cast<int>(input::as_integer(value, next.path, 0, 5));
-    if (std::ranges::count(groups, group) > 0) {
-      next.refuse(" is '" + value.text + "' again; remove one");
-    }
-    groups.push_back(group);
-  }
-  if (groups.empty()) {
-    item.refuse(
-        " is an empty list, and nothing would be drawn; give one or more, or remove the key");
-  }
+  read_distinct(item, "nothing would be drawn: give one or more, or remove the key",
+                [&](const Item& group) {
+                  read_value(group, Whole{0, 5}, groups.emplace_back());
+                });
 }
 
 void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) {
   groups.clear();
-  for (const input::Value& value : input::as_list(item.value, item.path)) {
-    const std::string& group = input::as_text(value, item.at(groups.size(), value).path);
-    if (group.find_first_not_of(kNameChars) != group.npos) {
-      throw input::Error(
-          value.where, "the group '{}' has other characters than a-z, 0-9, '_' and '-'; rename it",
-          group);
-    }
-    if (std::ranges::count(groups, group) > 0) {
-      throw input::Error(value.where, "groups has '" + group + "' twice; remove one");
-    }
-    groups.push_back(group);
-  }
-  if (groups.empty()) {
-    throw input::Error(item.value.where,
-                       "groups is an empty list; give one or more, or remove the key");
-  }
+  read_distinct(item, "give one or more, or remove the key", [&](const Item& group) {
+    groups.push_back(input::as_text(group.value, group.path));
+    if (groups.back().find_first_not_of(kNameChars) == std::string::npos) return;
+    throw input::Error(group.value.where,
+                       "the group '{}' has other characters than a-z, 0-9, '_' and '-'; rename it",
+                       groups.back());
+  });
 }
 
-/// False for nan and inf in the notation of YAML (".inf") or C++ ("inf").
-bool is_finite(std::string_view text) {
-  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  if (text.starts_with('.')) text.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = end == text.data() + text.size();
-  return !whole || (error == std::errc() && std::isfinite(number));
-}
-
-/// Rejects numbers that are not finite. The filter checks names and ranges.
+/// The filter checks names and values.
 void read_value(const Item& item, const FilterParameters& form,
                 std::vector<FilterSetting>& settings) {
   const input::Reader reader(item.value, item.path);
   for (const input::Entry& entry : item.value.entries) {
-    const std::string path = reader.path_of(entry.key);
-    const std::string& text = input::as_text(entry.value, path);
+    const std::string& text = input::as_text(entry.value, reader.path_of(entry.key));
     if (entry.key == "preset") {
       form.preset = text;
       form.source = entry.value.where;
       continue;
-    }
-    if (!is_finite(text)) {
-      throw input::Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
     }
     settings.push_back({entry.key, text, entry.value.where});
   }
@@ -403,21 +396,11 @@ SweptKey read_key(const input::Entry& entry) {
         entry.key == "seed" ? "the number of seeds is the suite's option" : "remove it");
   }
   SweptKey swept{entry.key, {}, entry.where};
-  for (const input::Value& value : input::as_list(entry.value, path)) {
-    const std::string index = std::to_string(swept.values.size());
-    if (value.kind == input::Value::Kind::null) {
-      throw input::Error(value.where, path + "." + index + " is nothing; give a value");
-    }
-    const std::string text = input::line_of(value);
-    const auto same = [&](const SweptKey::Value& other) { return other.text == text; };
-    if (std::ranges::any_of(swept.values, same)) {
-      throw input::Error(value.where, path + " has '" + text + "' twice; remove one");
-    }
-    swept.values.push_back({text, value.where});
-  }
-  if (swept.values.empty()) {
-    throw input::Error(entry.where, path + " is an empty list; give one or more values");
-  }
+  const fs::path nowhere;
+  read_distinct(Item{entry.value, path, nowhere}, "give one or more values", [&](const Item& one) {
+    if (one.value.kind == input::Value::Kind::null) one.refuse(" is nothing; give a value");
+    swept.values.push_back({input::line_of(one.value), one.value.where});
+  });
   return swept;
 }
 
@@ -488,10 +471,9 @@ void complete(input::Reader& reader, Camera& camera) {
   const fs::path nowhere;
   std::vector<Eigen::Vector4d> rows;
   read_value(Item{*value, reader.path_of("T_BC"), nowhere}, kCoefficient, rows);
-  Eigen::Matrix4d T = Eigen::Matrix4d::Zero();
-  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
-    T.row(static_cast<Eigen::Index>(i)) = rows[i];
-  }
+  rows.resize(std::max<std::size_t>(rows.size(), 4), Eigen::Vector4d::Zero());
+  Eigen::Matrix4d T;
+  T << rows[0].transpose(), rows[1].transpose(), rows[2].transpose(), rows[3].transpose();
   const Eigen::Matrix3d R_BC = T.topLeftCorner<3, 3>();
   if (rows.size() != 4 || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || !is_rotation(R_BC)) {
     reader.refuse("T_BC",

@@ -16,6 +16,7 @@ inline constexpr input::Quantity kSpeed{input::Dimension::speed, {0, 100}};
 inline constexpr input::Quantity kSignedSpeed{input::Dimension::speed, {-100, 100}};
 inline constexpr input::Quantity kAcceleration{input::Dimension::acceleration, {-100, 100}};
 inline constexpr input::Quantity kAngle{input::Dimension::angle, {-360, 360}};
+inline constexpr input::Quantity kJointAngle{input::Dimension::angle, {-36000, 36000}};
 inline constexpr input::Quantity kFieldOfView{input::Dimension::angle, {0, 180, true, true}};
 inline constexpr input::Quantity kFocal{input::Dimension::pixels, {1, 1e6}};
 inline constexpr input::Quantity kInPicture{input::Dimension::pixels, {-100000, 100000}};

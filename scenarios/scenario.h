@@ -289,11 +289,8 @@ struct Line {
   double speed_mps = 0;                   ///< >= 0
   double acceleration_mps2 = 0;           ///< the speed stops at 0: "comes and parks"
 };
-struct Waypoints {
-  /// At least two; straight and uniform in between. Times count from the start trigger, and
-  /// increase.
-  std::vector<Waypoint> points;
-};
+/// At least two; straight and uniform in between. Times count from the start trigger, and increase.
+using Waypoints = std::vector<Waypoint>;
 struct Circular {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double radius_m = 0;  ///< > 0
@@ -302,6 +299,19 @@ struct Circular {
 };
 ///@}
 using Trajectory = std::variant<Still, Line, Waypoints, Circular>;
+
+/// The value of a joint with its time.
+struct JointPoint {
+  double at_s = 0;
+  double value = 0;       ///< MuJoCo's position of the joint, rad or m
+  bool is_angle = false;  ///< given in a unit of angles
+};
+/// The motion of a hinge or slide in a body of the scene, by `Waypoints`' rules.
+struct JointMotion {
+  std::string name;
+  input::Source source;
+  std::vector<JointPoint> points;
+};
 
 /// An actor waits at the first point of its trajectory until its trigger fires.
 struct StartTrigger {
@@ -331,8 +341,10 @@ struct Actor {
   std::string pose;
   std::string kind;  ///< class in COCO and MOT; "": the class of its shape
   Trajectory trajectory;
+  std::vector<JointMotion> joints;  ///< of `body`; given in place of a trajectory: the body stays
   StartTrigger start;
 
+  bool stands() const { return joints.empty() && std::holds_alternative<Still>(trajectory); }
   bool walks() const {
     return pose == kPoseWalking || (!body && shape == Shape::walker && pose.empty());
   }

@@ -179,10 +179,6 @@ input::Value written(Plain, const HasFields auto& object) {
   return keys.entries.empty() ? input::Value{} : keys;
 }
 
-inline input::Value written(Plain, const Waypoints& waypoints) {
-  return written(Plain{}, waypoints.points);
-}
-
 /// The phases after the first one, which the ego's own keys define. All keys are written, because
 /// each phase inherits the keys of the phase before.
 inline input::Value written(Plain, const std::vector<EgoPhase>& phases) {
@@ -190,18 +186,28 @@ inline input::Value written(Plain, const std::vector<EgoPhase>& phases) {
   for (std::size_t i = 1; i < phases.size(); ++i) items.items.push_back(all_keys(phases[i]));
   return items.items.empty() ? input::Value{} : items;
 }
+/// A map of what `write` makes of each, by name; null without any.
+input::Value map_of(const auto& all, const auto& write) {
+  input::Value names = all.empty() ? input::Value{} : map();
+  for (const auto& one : all) put(names, one.name, write(one));
+  return names;
+}
 inline input::Value written(Plain, const std::vector<Actor>& actors) {
-  input::Value names = map();
-  for (const Actor& actor : actors) put(names, actor.name, written(Plain{}, actor));
-  return actors.empty() ? input::Value{} : names;
+  return map_of(actors, [](const Actor& actor) { return written(Plain{}, actor); });
+}
+inline input::Value written(Plain, const std::vector<JointMotion>& joints) {
+  return map_of(joints, [](const JointMotion& joint) {
+    return list_of(joint.points, [](const JointPoint& point) {
+      return list({written(kTime, point.at_s),
+                   written(point.is_angle ? kJointAngle : kPosition, point.value)});
+    });
+  });
 }
 inline input::Value written(Plain, const std::vector<RigCamera>& cameras) {
-  input::Value names = map();
-  for (const RigCamera& one : cameras) {
+  return map_of(cameras, [](const RigCamera& one) {
     const input::Value keys = written(Plain{}, one.camera);
-    put(names, one.name, keys.kind == input::Value::Kind::null ? map() : keys);
-  }
-  return cameras.empty() ? input::Value{} : names;
+    return keys.kind == input::Value::Kind::null ? map() : keys;
+  });
 }
 inline input::Value written(const FilterParameters& form,
                             const std::vector<FilterSetting>& settings) {

@@ -39,17 +39,13 @@ std::vector<Footprint> footprints(const World& world) {
 
 /// Whether a point is inside a geom. Always false for meshes, which may be rooms.
 bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
-  const mjModel& m = model.m();
-  const Eigen::Vector3d p = model.geom_pose(geom).inverse() * point_W;
-  const Eigen::Map<const Eigen::Vector3d> size(m.geom_size + 3 * geom);
-  const int type = m.geom_type[geom];
-  if (type == mjGEOM_BOX) return (p.array().abs() < size.array()).all();
-  if (type == mjGEOM_SPHERE) return p.norm() < size[0];
-  if (type == mjGEOM_ELLIPSOID) return p.cwiseQuotient(size).norm() < 1;
-  const bool is_beside = std::abs(p.z()) < size[1];
-  if (type == mjGEOM_CYLINDER) return p.head<2>().norm() < size[0] && is_beside;
-  const double along = std::clamp(p.z(), -size[1], size[1]);
-  return type == mjGEOM_CAPSULE && (p - Eigen::Vector3d(0, 0, along)).norm() < size[0];
+  const int type = model.m().geom_type[geom];
+  if (type == mjGEOM_PLANE || type == mjGEOM_HFIELD || type == mjGEOM_MESH) return false;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d normal = up;
+  const double way_m =
+      mj::ray_geom(model.m(), model.d(), geom, point_W.data(), up.data(), normal.data());
+  return way_m >= 0 && normal.z() > 0;  // it goes out, and did not come in
 }
 
 /// Appends a line for each geom or object that the camera newly entered.
@@ -86,7 +82,11 @@ Survey survey(const scenario::Scenario& scenario, int looks,
   s.wrong_at_start = world.wrong_at_start();
   for (const scenario::Actor& actor : scenario.actors) {
     const std::string name = actor.body.value_or(actor.name);
-    s.actors.push_back(std::ranges::find(s.objects, name, &Object::name)->id);
+    const int id = std::ranges::find(s.objects, name, &Object::name)->id;
+    std::vector<std::size_t>& parts = s.actors.emplace_back(1, id);
+    for (std::size_t i = 0; i < world.limb_objects().size(); ++i) {
+      if (world.limb_objects()[i] == id) parts.push_back(s.objects.size() + 1 + i);
+    }
   }
   std::set<int> looked_at;
   for (int i = 0; i < looks; ++i) {

@@ -24,7 +24,8 @@ struct Footprint {
 struct Survey {
   std::vector<Footprint> footprints;  ///< without floors and invisible geoms
   std::vector<Object> objects;
-  std::vector<int> actors;                  ///< object id of each actor of the scenario
+  /// Of each actor of the scenario: its object id, and the places of its limbs in `Snapshot::T_WO`.
+  std::vector<std::vector<std::size_t>> actors;
   std::vector<Eigen::Vector2d> rover_m;     ///< in W, per frame
   std::vector<Snapshot> snapshots;          ///< per frame
   std::vector<std::string> wrong_at_start;  ///< one line per fault that a run rejects

@@ -159,7 +159,7 @@ class Planner {
     if (back_and_forth) {
       const int legs = std::min(20, 2 + static_cast<int>(end_s() / leg_s));
       for (int i = 0; i <= legs; ++i) {
-        path.points.push_back({to_cm(std::max(0.01, leg_s)) * i, i % 2 ? until : from});
+        path.push_back({to_cm(std::max(0.01, leg_s)) * i, i % 2 ? until : from});
       }
     } else if (d_.chance(0.25)) {  // starts or stops slowly: legs of increasing or decreasing speed
       const bool stops = d_.chance(0.5);
@@ -167,12 +167,12 @@ class Planner {
       for (int i = 0; i <= kLegs; ++i) {
         const double share = static_cast<double>(i) / kLegs;
         const double where = stops ? share * (2 - share) : share * share;
-        path.points.push_back(
+        path.push_back(
             {to_cm(1.6 * leg_s * share) + 0.01 * i, to_cm(from + where * (until - from))});
       }
       kit_.tag(stops ? "mover_stops" : "mover_starts");
     } else {
-      path.points = {{0, from}, {std::max(0.02, to_cm(leg_s)), until}};
+      path = {{0, from}, {std::max(0.02, to_cm(leg_s)), until}};
     }
     mover.trajectory = path;
     return true;

@@ -52,7 +52,9 @@ void scale_geom(mjsElement* element, const Matrix3d& R_body, const Vector3d& fac
     geom.size[1] = geom.size[2] = geom.size[0];
   }
   pose.p = scaled(pose.p);
-  set_pose_in_body(element, pose, local);
+  const bool is_mesh = geom.type == mjGEOM_MESH;  // of any shape, and scaled along `base`'s axes
+  set_pose_in_body(element, pose, is_mesh ? factor : local,
+                   is_mesh ? Matrix3d(R_body.transpose()) : pose.R);
 }
 
 /// Scales geoms and the positions of bodies along the axes of the fragment.
@@ -68,12 +70,11 @@ void scale_in(const mjsBody& body, const Matrix3d& R, const Vector3d& factor) {
 }
 
 Element* asset_named(Element& root, const char* kind, const std::string& name) {
-  for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
-    for (Element* e = s->FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
-      if (xml::attribute(*e, "name") == name) return e;
-    }
-  }
-  return nullptr;
+  Element* found = nullptr;
+  xml::for_each(root, [&](Element& e) {
+    if (e.Name() == std::string_view(kind) && xml::attribute(e, "name") == name) found = &e;
+  });
+  return found;
 }
 
 /// Renames the texture of the material `paint` to the name that selects its content. Other
@@ -121,7 +122,7 @@ void take_contacts_away(const mjSpec& spec) {
 /// numbers in it, also in a body inside another, where MuJoCo allows no free joint.
 void split_free_joints(Element& root) {
   xml::for_each(root, [&](Element& body) {
-    if (!xml::is_kind(body, "body")) return;
+    if (body.Name() != std::string_view("body")) return;
     Element* joint = body.FirstChildElement("freejoint");
     Element* const first = body.FirstChildElement("joint");
     if (!joint && first && xml::attribute(*first, "type") == "free") joint = first;
@@ -210,10 +211,6 @@ bool freeze(mjSpec& spec, const std::string& pose, const std::function<bool(mjsE
   for (mjsElement* joint : joints) remove(spec, joint);
   take_warning();  // of the joints' limits and the like
   return !joints.empty();
-}
-
-bool has_picture(const scenario::Actor& actor) {
-  return !actor.texture.empty() && !is_texture_style(actor.texture);
 }
 
 Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader) {

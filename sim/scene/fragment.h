@@ -19,8 +19,6 @@ namespace lcs::sim {
 /// Name, within an actor's fragment, of the texture that a picture file fills.
 inline constexpr const char* kPictureTexture = "picture";
 
-bool has_picture(const scenario::Actor& actor);
-
 struct Fragment {
   Spec spec;
   mjsBody* base = nullptr;
@@ -30,8 +28,8 @@ struct Fragment {
 };
 
 /// The fragment of an actor: posed, scaled from its file's size to the requested size, painted, and
-/// without contacts. Boxes, ellipsoids and meshes scale by any three factors along their own axes;
-/// cylinders and capsules stay round. \throws input::Error
+/// without contacts. Boxes and ellipsoids scale by any three factors along their own axes, meshes
+/// along the actor's; cylinders and capsules stay round. \throws input::Error
 Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader);
 
 /// The fragment of the rover. Only a wheeled rover keeps its contacts. \throws input::Error

@@ -12,6 +12,7 @@
 #include "sim/scene/fragment.h"
 #include "sim/scene/ground.h"
 #include "sim/scene/model.h"
+#include "sim/scene/texture.h"
 
 namespace lcs::sim {
 namespace {
@@ -46,7 +47,7 @@ std::vector<std::string> body_names(const mjSpec& scene) {
 }
 
 /// Makes a body of the scene kinematic: the simulation sets its pose. What refers to its joints
-/// goes with them.
+/// goes with them. A body stays if its actor moves joints in it.
 void make_mocap(mjSpec& scene, const Actor& actor) {
   if (!actor.texture.empty() || actor.size_m || !actor.pose.empty()) {
     throw input::Error(actor.source,
@@ -54,6 +55,7 @@ void make_mocap(mjSpec& scene, const Actor& actor) {
                        "already; remove these keys",
                        actor.name);
   }
+  if (!actor.joints.empty()) return;
   mjsBody& body = *mjs_findBody(&scene, actor.body->c_str());
   for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) { remove(scene, e); });
   body.mocap = 1;
@@ -90,7 +92,7 @@ void add_actor(mjSpec& scene, const Actor& actor, ComposedScene& composed) {
   mjsBody& body = attach(scene, fragment, prefix);
   mjs_setName(body.element, actor.name.c_str());  // the object's name
   body.mocap = 1;
-  if (has_picture(actor)) {
+  if (!actor.texture.empty() && !is_texture_style(actor.texture)) {
     composed.pictures.push_back({prefix + kPictureTexture, actor.texture, actor.source});
   }
 }
@@ -138,11 +140,16 @@ bool is_of_loose_thing(const mjsJoint& joint) {
 
 /// Takes the scene's keyframes away, whose states lack the rover's joints, after the use of one.
 void pose_scene(mjSpec& scene, const Scenario& scenario, ComposedScene& composed) {
+  std::set<mjsElement*> led;  // joints in bodies of which an actor moves some
+  for (const Actor& actor : scenario.actors) {
+    mjsBody* body = actor.joints.empty() ? nullptr : mjs_findBody(&scene, actor.body->c_str());
+    if (body) for_each_in(*body, mjOBJ_JOINT, true, [&](mjsElement* e) { led.insert(e); });
+  }
+  const auto goes = [&](mjsElement* joint) {
+    return !is_of_loose_thing(*mjs_asJoint(joint)) && !led.contains(joint);
+  };
   if (!scenario.pose.empty() &&
-      freeze(
-          scene, scenario.pose,
-          [](mjsElement* joint) { return !is_of_loose_thing(*mjs_asJoint(joint)); },
-          "the scene has", scenario.scene_source)) {
+      freeze(scene, scenario.pose, goes, "the scene has", scenario.scene_source)) {
     composed.frozen.push_back(fmt::format("the scene keeps the pose '{}'", scenario.pose));
   }
   for_each(scene, mjOBJ_KEY, [&](mjsElement* e) { mjs_delete(&scene, e); });
@@ -167,9 +174,7 @@ void name_bodies(mjSpec& scene, ComposedScene& composed) {
 /// Axes of a MuJoCo camera (x right, y up, looking along -z) in B, from roll, pitch and yaw.
 Eigen::Matrix3d mujoco_camera_axes(const Eigen::Vector3d& rpy) {
   Eigen::Matrix3d forward;
-  forward.col(0) = -Eigen::Vector3d::UnitY();
-  forward.col(1) = Eigen::Vector3d::UnitZ();
-  forward.col(2) = -Eigen::Vector3d::UnitX();
+  forward << -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitX();
   return rotation_of_rpy(rpy) * forward;
 }
 

@@ -9,32 +9,11 @@
 
 #include "sim/scene/limits.h"
 #include "sim/scene/model.h"
-#include "sim/scene/texture.h"
 
 namespace lcs::sim {
 namespace {
 
 using xml::Element;
-using xml::is_kind;
-
-/// Rejects procedural textures whose style is unknown.
-void check_styles(Element& root) {
-  xml::for_each(root, [](const Element& e) {
-    if (!is_kind(e, "texture")) return;
-    const char* name = e.Attribute("name");
-    const std::filesystem::path file = xml::attribute(e, "file");
-    const std::string style(procedural_style(name ? name : file.stem().string()));
-    if (style.empty() || is_texture_style(style)) return;
-    throw input::Error(xml::source_of(e), "no texture style is called '{}'; there are {}", style,
-                       fmt::join(texture_styles(), ", "));
-  });
-}
-
-void remove_sections(Element& root, std::initializer_list<const char*> kinds) {
-  for (const char* kind : kinds) {
-    while (Element* section = root.FirstChildElement(kind)) root.DeleteChild(section);
-  }
-}
 
 /// Removes settings that would change other bodies, names, or the rover's mass.
 void prepare(Element& root, SpecReader::Part part) {
@@ -45,7 +24,9 @@ void prepare(Element& root, SpecReader::Part part) {
     }
   }
   if (part == SpecReader::Part::fragment) {
-    remove_sections(root, {"size", "visual", "statistic"});
+    for (const char* kind : {"size", "visual", "statistic"}) {
+      while (Element* section = root.FirstChildElement(kind)) root.DeleteChild(section);
+    }
     for (Element* o = root.FirstChildElement("option"); o; o = o->NextSiblingElement("option")) {
       const std::string integrator = xml::attribute(*o, "integrator");
       while (o->FirstAttribute()) o->DeleteAttribute(o->FirstAttribute()->Name());
@@ -54,7 +35,6 @@ void prepare(Element& root, SpecReader::Part part) {
     }
   }
   check_limits(root);
-  check_styles(root);
 }
 
 const mjString* info_of(mjsElement* e) {
@@ -237,16 +217,12 @@ const SpecReader::Origin* SpecReader::origin_in(const std::string& said, const m
   return found;
 }
 
-input::Error SpecReader::told(const std::string& said, const mjSpec* spec,
-                              std::string_view verb) const {
+input::Error SpecReader::refusal(const std::string& said, const mjSpec* spec,
+                                 std::string_view verb) const {
   const Origin* found = origin_in(said, spec);
   return {
       found ? found->source : source(nullptr),
       fmt::format("MuJoCo {} {}: {}", verb, found ? found->tag : "the scene", in_one_line(said))};
-}
-
-input::Error SpecReader::refusal(const std::string& said, const mjSpec* spec) const {
-  return told(said, spec, "refuses");
 }
 
 void SpecReader::note_warnings(const mjSpec* spec) {
@@ -254,7 +230,7 @@ void SpecReader::note_warnings(const mjSpec* spec) {
   for (int i = 0; i < mjs_numWarnings(spec); ++i) said.emplace_back(mjs_getWarning(spec, i));
   for (const std::string& warning : said) {
     if (warning.empty()) continue;
-    const std::string line = told(warning, spec, "warns of").what();
+    const std::string line = refusal(warning, spec, "warns of").what();
     if (std::ranges::find(warnings_, line) == warnings_.end()) warnings_.push_back(line);
   }
 }
@@ -313,18 +289,18 @@ Pose pose_in_body(const mjsElement* element) {
   return pose;
 }
 
-void set_pose_in_body(mjsElement* element, const Pose& pose, const Eigen::Vector3d& scale) {
+void set_pose_in_body(mjsElement* element, const Pose& pose, const Eigen::Vector3d& scale,
+                      const Eigen::Matrix3d& axes) {
   mjsFrame* frame = mjs_addFrame(mjs_getParent(element), nullptr);
-  const Eigen::Quaterniond q(pose.R);
+  const Eigen::Quaterniond q(axes), q_in_frame(axes.transpose() * pose.R);
   Eigen::Map<Eigen::Vector3d>(frame->pos) = pose.p;
-  Eigen::Map<Eigen::Vector4d>(frame->quat) << q.w(), q.x(), q.y(), q.z();
+  Eigen::Map<Eigen::Vector4d>(frame->quat) << q.w(), q.vec();
   Eigen::Map<Eigen::Vector3d>(frame->scale) = scale;
   frame->scaling = mjSCALING_GEOMETRY;
   const Placed of = placed(element);
   mjs_defaultOrientation(of.alt);
   std::fill_n(of.pos, 3, 0.0);
-  std::fill_n(of.quat, 4, 0.0);
-  of.quat[0] = 1;
+  Eigen::Map<Eigen::Vector4d>(of.quat) << q_in_frame.w(), q_in_frame.vec();
   mjs_setFrame(element, frame);
 }
 

@@ -48,7 +48,8 @@ class SpecReader {
   input::Source source_of_tag(std::string_view tag) const;
 
   /// MuJoCo's message as an error that names the user's file, line and element.
-  input::Error refusal(const std::string& said, const mjSpec* spec) const;
+  input::Error refusal(const std::string& said, const mjSpec* spec,
+                       std::string_view verb = "refuses") const;
 
   /// Keeps what MuJoCo has warned of, in this thread and in `spec`, once each.
   void note_warnings(const mjSpec* spec);
@@ -66,7 +67,6 @@ class SpecReader {
   const Origin* at(int line) const;
   const Origin* origin(const mjsElement* element) const;
   const Origin* origin_in(const std::string& said, const mjSpec* spec) const;
-  input::Error told(const std::string& said, const mjSpec* spec, std::string_view verb) const;
 
   std::filesystem::path first_file_;
   std::map<int, Origin> origins_;  ///< by line
@@ -110,8 +110,9 @@ void remove(mjSpec& spec, mjsElement* element);
 Pose pose_in_body(const mjsElement* element);
 
 /// Takes frames and other notations away: the element has this pose in its body.
-/// \param scale of its shape along its own axes.
+/// \param scale of its shape along the columns of `axes`, in the body.
 void set_pose_in_body(mjsElement* element, const Pose& pose,
-                      const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+                      const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
+                      const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
 }  // namespace lcs::sim

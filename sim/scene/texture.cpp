@@ -380,17 +380,15 @@ void fill_texture(Model& model, int texture, const cv::Mat3b& picture) {
   }
 }
 
-void fill_procedural_textures(Model& model, std::uint64_t scenario_seed) {
+void fill_procedural_texture(Model& model, int texture, std::uint64_t scenario_seed) {
   const mjModel& m = model.m();
-  for (int texture = 0; texture < m.ntex; ++texture) {
-    const std::string_view name = model.name(mjOBJ_TEXTURE, texture);
-    const std::string_view style = procedural_style(name);
-    if (style.empty()) continue;
-    const int width = m.tex_width[texture];
-    const int height = m.tex_type[texture] == mjTEXTURE_2D ? m.tex_height[texture] : width;
-    const RandomStream random(scenario_seed, "texture/" + std::string(name));
-    fill_texture(model, texture, paint(style, width, height, random));
-  }
+  const std::string_view name = model.name(mjOBJ_TEXTURE, texture);
+  const std::string_view style = procedural_style(name);
+  if (style.empty()) return;
+  const int width = m.tex_width[texture];
+  const int height = m.tex_type[texture] == mjTEXTURE_2D ? m.tex_height[texture] : width;
+  const RandomStream random(scenario_seed, "texture/" + std::string(name));
+  fill_texture(model, texture, paint(style, width, height, random));
 }
 
 }  // namespace lcs::sim

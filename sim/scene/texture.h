@@ -30,8 +30,9 @@ std::string_view procedural_style(std::string_view texture_name);
 /// \throws std::invalid_argument for an unknown style, with the known styles.
 cv::Mat3b paint(std::string_view style, int width_px, int height_px, RandomStream random);
 
-/// Paints every procedural texture of the model, each from its own random stream.
-void fill_procedural_textures(Model& model, std::uint64_t scenario_seed);
+/// Paints a texture of the model, if it is procedural, from its own random stream. \throws as
+/// `paint`
+void fill_procedural_texture(Model& model, int texture, std::uint64_t scenario_seed);
 
 /// Fills a texture with an image (RGB); for a cube texture, each face.
 void fill_texture(Model& model, int texture, const cv::Mat3b& picture);

@@ -16,35 +16,32 @@ namespace {
 constexpr input::FileKind kModelFile{64 * input::kMebibyte, "give the path of an MJCF file"};
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLNode;
 
 // Contains "LINE FILE" of an element's source; no user's attribute has this name.
 constexpr const char* kSource = "lcs:source";
 
-[[noreturn]] void fail(const fs::path& file, int line, const std::string& message) {
-  throw input::Error({file.string(), line}, message);
-}
-
 Document parse(const fs::path& file, const input::Source& where) {
   auto document = std::make_unique<XMLDocument>();
   const std::string text = input::InputFile(file, kModelFile, where).bytes();
   if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // tinyxml2 would stop there
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(nul);
-    fail(file, static_cast<int>(std::count(text.begin(), end, '\n')) + 1,
-         "there is a NUL byte; is this a text file? remove it");
+    throw input::Error({file.string(), static_cast<int>(std::count(text.begin(), end, '\n')) + 1},
+                       "there is a NUL byte; is this a text file? remove it");
   }
   const tinyxml2::XMLError status = document->Parse(text.data(), text.size());
   if (status != tinyxml2::XML_SUCCESS) {
-    fail(file, document->ErrorLineNum(),
-         std::string("is not well-formed XML (") + XMLDocument::ErrorIDToName(status) +
-             "); correct the file");
+    throw input::Error({file.string(), document->ErrorLineNum()},
+                       std::string("is not well-formed XML (") +
+                           XMLDocument::ErrorIDToName(status) + "); correct the file");
   }
   const Element* root = document->RootElement();
   const std::string_view kind = root ? root->Name() : "";
   if (kind != "mujoco" && kind != "mujocoinclude" && kind != "robot") {
-    fail(file, root ? root->GetLineNum() : 1,
-         "is not MJCF: its root element must be <mujoco> (or <robot>, in URDF)");
+    throw input::Error({file.string(), root ? root->GetLineNum() : 1},
+                       "is not MJCF: its root element must be <mujoco> (or <robot>, in URDF)");
   }
   for_each(*document->RootElement(), [&](Element& e) {
     e.SetAttribute(kSource, fmt::format("{} {}", e.GetLineNum(), file.string()).c_str());
@@ -60,7 +57,7 @@ void make_absolute(Element& root, const fs::path& main_file) {
   fs::path meshes, textures;
   bool is_stripped = false;
   for_each(root, [&](Element& c) {
-    if (!is_kind(c, "compiler")) return;
+    if (c.Name() != "compiler"s) return;
     if (const char* both = c.Attribute("assetdir")) meshes = textures = both;
     if (const char* dir = c.Attribute("meshdir")) meshes = dir;
     if (const char* dir = c.Attribute("texturedir")) textures = dir;
@@ -69,9 +66,9 @@ void make_absolute(Element& root, const fs::path& main_file) {
       c.DeleteAttribute(key);
   });
   for_each(root, [&](Element& e) {
-    const fs::path by = is_kind(e, "model")     ? fs::path()
-                        : is_kind(e, "texture") ? textures
-                                                : meshes;
+    const fs::path by = e.Name() == "model"s     ? fs::path()
+                        : e.Name() == "texture"s ? textures
+                                                 : meshes;
     const fs::path base = fs::absolute(main_file).parent_path();
     const fs::path own = fs::absolute(source_of(e).file).parent_path();
     for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
@@ -138,10 +135,6 @@ void for_each(Element& element, const std::function<void(Element&)>& visit) {
   visit(element);
   for (Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement())
     for_each(*e, visit);
-}
-
-bool is_kind(const Element& element, std::string_view kind) {
-  return element.Name() == kind;
 }
 
 std::string attribute(const Element& element, const char* name) {

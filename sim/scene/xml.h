@@ -27,9 +27,6 @@ Document load(const std::filesystem::path& file, const input::Source& where);
 /// Calls `visit` for an element and all its descendants.
 void for_each(Element& element, const std::function<void(Element&)>& visit);
 
-/// Whether an element has that kind (tag name), for example "geom".
-bool is_kind(const Element& element, std::string_view kind);
-
 std::string attribute(const Element& element, const char* name);  ///< "" where absent
 
 /// Source of an element, or of its nearest enclosing element with a source.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace lcs::sim {
 namespace {
@@ -38,7 +39,7 @@ PlanarPose at(const Line& line, const PlanarPose& home, double t) {
 
 /// Heading of the leg that ends at waypoint `end`. For a pause: of the last moving leg before it,
 /// or, at the beginning, of the first moving leg after it.
-double heading_on(const std::vector<Waypoint>& points, std::size_t end, double home_heading_rad) {
+double heading_on(const Waypoints& points, std::size_t end, double home_heading_rad) {
   const auto leg = [&](std::size_t i) {
     return Eigen::Vector2d(points[i].position_m - points[i - 1].position_m);
   };
@@ -51,15 +52,21 @@ double heading_on(const std::vector<Waypoint>& points, std::size_t end, double h
   return home_heading_rad;
 }
 
-PlanarPose at(const Waypoints& waypoints, const PlanarPose& home, double t) {
-  const auto& points = waypoints.points;
-  const auto later = std::ranges::upper_bound(points, t, {}, &Waypoint::at_s);
-  // the leg at time t; the first leg before the first waypoint, the last leg after the last one
+/// The end of the leg at time t, and the share of it that is past. Before the first waypoint it is
+/// the first leg, after the last one the last leg.
+template <class Point>
+std::pair<std::size_t, double> leg_at(const std::vector<Point>& points, double t) {
+  const auto later = std::ranges::upper_bound(points, t, {}, &Point::at_s);
   const auto end = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(std::distance(points.begin(), later), 1, std::ssize(points) - 1));
+  const double begin_s = points[end - 1].at_s;
+  return {end, std::clamp((t - begin_s) / (points[end].at_s - begin_s), 0.0, 1.0)};
+}
+
+PlanarPose at(const Waypoints& points, const PlanarPose& home, double t) {
+  const auto [end, share] = leg_at(points, t);
   const Waypoint& a = points[end - 1];
   const Waypoint& b = points[end];
-  const double share = std::clamp((t - a.at_s) / (b.at_s - a.at_s), 0.0, 1.0);
   double walked_m = share * (b.position_m - a.position_m).norm();
   for (std::size_t i = 1; i < end; ++i) {
     walked_m += (points[i].position_m - points[i - 1].position_m).norm();
@@ -80,6 +87,14 @@ PlanarPose at(const Circular& circle, const PlanarPose&, double t) {
 PlanarPose pose_on(const scenario::Trajectory& trajectory, const PlanarPose& home, double seconds) {
   const double t = std::max(0.0, seconds);
   return std::visit([&](const auto& kind) { return at(kind, home, t); }, trajectory);
+}
+
+JointState joint_at(const std::vector<scenario::JointPoint>& points, double seconds) {
+  const auto [end, share] = leg_at(points, seconds);
+  const scenario::JointPoint &a = points[end - 1], &b = points[end];
+  const bool moves = a.at_s <= seconds && seconds < b.at_s;
+  return {a.value + share * (b.value - a.value),
+          moves ? (b.value - a.value) / (b.at_s - a.at_s) : 0};
 }
 
 double Trigger::update(std::int64_t t_ns, double ego_distance_m) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "scenarios/scenario.h"
 
@@ -20,6 +21,12 @@ struct PlanarPose {
 /// Pose on a trajectory, `seconds` after its start trigger. Before the trigger: the first point.
 /// \param home the scene's pose of the body; fills in values that the trajectory omits.
 PlanarPose pose_on(const scenario::Trajectory& trajectory, const PlanarPose& home, double seconds);
+
+/// The value of a joint, rad or m, and its rate, 1/s, at `seconds` as in `pose_on`.
+struct JointState {
+  double value = 0, rate = 0;
+};
+JointState joint_at(const std::vector<scenario::JointPoint>& points, double seconds);
 
 /// Fires once, at the first call of `update` at which all its conditions hold.
 class Trigger {

@@ -107,6 +107,7 @@ class WheeledRover : public Rover {
         base_(model, "base") {
     check(scenario);
     const mjModel& m = model.m();
+    const Pose T_BW = model.body_pose(model.id(mjOBJ_BODY, kEgoBody)).inverse();
     std::array<double, 2> y_m{}, count{};  // left, right
     for (int i = 0; i < m.nu; ++i) {
       const std::string_view name = model.name(mjOBJ_ACTUATOR, i);
@@ -119,7 +120,7 @@ class WheeledRover : public Rover {
       int geom = m.body_geomadr[body];
       while (!is_round(m.geom_type[geom])) ++geom;
       radius_m_ = m.geom_size[3 * geom];
-      y_m[is_right] += place_in_base(m, body).y();
+      y_m[is_right] += (T_BW * model.body_pose(body).p).y();
       ++count[is_right];
     }
     track_m_ = y_m[0] / count[0] - y_m[1] / count[1];
@@ -239,17 +240,6 @@ class WheeledRover : public Rover {
   double rate_of(const Wheel& wheel, const PlanarVelocity& v) const {
     const double half = v.yaw_rate_radps * track_m_ / 2;
     return (v.linear_mps.x() + (wheel.is_right ? half : -half)) / radius_m_;
-  }
-
-  /// Origin of a body in B, with all joints at their reference.
-  static Eigen::Vector3d place_in_base(const mjModel& m, int body) {
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    for (; m.body_parentid[body] != 0; body = m.body_parentid[body]) {
-      const mjtNum* q = m.body_quat + 4 * body;
-      place = Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * place +
-              Eigen::Map<const Eigen::Vector3d>(m.body_pos + 3 * body);
-    }
-    return place;
   }
 
   scenario::Ego ego_;

@@ -54,7 +54,7 @@ inline constexpr std::array<WarningText, 20> kWarnings{{
     {"translucent_geoms",
      "a pixel has one true surface; give it alpha 1, or 0 for a geom that is not drawn"},
     {"undrawn_parts", "only geoms have a truth; give the body geoms for the parts to be seen"},
-    {"joints_frozen", "its trajectory moves it as one rigid body, whose limbs do not step"},
+    {"joints_frozen", "the joints that a pose holds do not move"},
     {"options_replaced", "bodies may move otherwise than in MuJoCo; give the option that is used"},
     {"mujoco_warnings", "MuJoCo goes on all the same"},
     {"joints_loose", "give ego.pose, a keyframe or zero, if they should stay"},

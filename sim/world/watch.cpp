@@ -125,6 +125,8 @@ void Watch::add_solid(const Model& model, Solid solid) {
         is_plane(m, geom) ? std::numeric_limits<double>::infinity() : m.geom_rbound[geom];
     solid.radius_m = std::max(solid.radius_m, (T_BW * T_WG.p - solid.centre_B).norm() + reach_m);
     if (solid.kind != Kind::actor) continue;
+    if (m.body_weldid[m.geom_bodyid[geom]] != 0)
+      solid.radius_m = std::numeric_limits<double>::infinity();
     const Eigen::RowVectorXd z = T_WG.R.row(2) * overlap_.hull(model, geom);
     foot_m = std::min(foot_m, T_WG.p.z() + z.minCoeff() - model.body_pose(solid.body).p.z());
   }
@@ -205,6 +207,10 @@ bool Watch::has_moved(const Model& model) {
   std::vector<Pose> now;
   for (const Solid& solid : solids_) {
     if (solid.moves) now.push_back(model.body_pose(solid.body));
+    for (const int geom : solid.geoms) {
+      const int carrier = model.m().body_weldid[model.m().geom_bodyid[geom]];  // 0: with its body
+      if (solid.kind == Kind::actor && carrier != 0) now.push_back(model.body_pose(carrier));
+    }
   }
   const auto is_near = [](const Pose& a, const Pose& b) {
     // trace of a rotation: 1 + 2 cos of its angle

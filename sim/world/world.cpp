@@ -15,6 +15,8 @@
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 
+#include "scenarios/input/reader.h"
+#include "scenarios/input/spelling.h"
 #include "sim/base/rotation.h"
 #include "sim/base/trial.h"
 #include "sim/pictures/picture_file.h"
@@ -30,6 +32,7 @@ constexpr double kLongestStep_s = 0.002;
 constexpr double kMoves_m = 1e-7;  // least step of an actor that moves
 constexpr double kActorInside_m =
     0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
+constexpr double kImmovable = 1e6;  // kg or kg m^2: nothing in a scene deflects such a joint
 
 /// \throws input::Error if the extent of the scene is too large or too small for the camera; the
 /// error cites the farthest geom or its body.
@@ -79,7 +82,14 @@ Model compile(ComposedScene& composed) {
 
 void fill_textures(Model& model, const scenario::Scenario& scenario,
                    const ComposedScene& composed) {
-  fill_procedural_textures(model, scenario.seed);
+  for (int texture = 0; texture < model.m().ntex; ++texture) {
+    try {
+      fill_procedural_texture(model, texture, scenario.seed);
+    } catch (const std::invalid_argument& error) {
+      throw input::Error(composed.source(mjOBJ_TEXTURE, model.name(mjOBJ_TEXTURE, texture)),
+                         error.what());
+    }
+  }
   for (const PictureTexture& picture : composed.pictures) {
     cv::Mat image = read_picture(picture.file, picture.source, cv::IMREAD_COLOR);
     cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
@@ -122,23 +132,15 @@ std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
                      of_scene->family, of_scene->seed);
 }
 
-double yaw(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
-
 Eigen::Quaterniond about_z(double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
 }
 
-/// Velocity of an element's frame, in W.
-struct Twist {
-  Eigen::Vector3d angular, linear;
-};
-
-Twist velocity(const Model& model, mjtObj type, int id) {
-  std::array<mjtNum, 6> v{};
+/// Velocity of an element's frame, in W: angular, then linear.
+Eigen::Matrix<double, 6, 1> velocity(const Model& model, mjtObj type, int id) {
+  Eigen::Matrix<double, 6, 1> v;
   mj_objectVelocity(&model.m(), &model.d(), type, id, v.data(), 0);
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  return v;
 }
 
 /// " (body 'ball')" if a warning cites a degree of freedom; else empty.
@@ -226,10 +228,10 @@ World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong
   fill_textures(model_, scenario_, composed_);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
   set_options();
-  rover_ = make_rover(scenario_, model_);
   find_objects();
   guarded([&] {
     call_mujoco([&] { mj_kinematics(&model_.m(), &model_.d()); });
+    rover_ = make_rover(scenario_, model_);
     place_imu();
     find_actors();
     rover_->start(model_);
@@ -270,7 +272,11 @@ void World::find_objects() {
     const bool moves = m.body_dofnum[body] > 0;
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
-      if (moves && object_of_body[b] >= 0) articulated.push_back(name);
+      const std::string_view root = model_.name(mjOBJ_BODY, m.body_rootid[body]);
+      const bool is_led = std::ranges::any_of(scenario_.actors, [&](const scenario::Actor& actor) {
+        return !actor.joints.empty() && actor.body == root;
+      });
+      if (moves && !is_led && object_of_body[b] >= 0) articulated.push_back(name);
     } else if (name == kEgoBody) {
       object_of_body[b] = -1;
     } else if (!name.empty()) {
@@ -284,8 +290,8 @@ void World::find_objects() {
         articulated.size() > 1 ? fmt::format(" (and {} more)", articulated.size() - 1) : "";
     refuse(articulated.front(),
            fmt::format("body '{}'{} has a joint inside another body, and an object moves as one: "
-                       "give the scenario a pose, a keyframe of the scene or zero, that its joints "
-                       "keep; or make it a body of the worldbody",
+                       "give the scenario a pose (a keyframe of the scene, or zero) that it keeps, "
+                       "or an actor that moves the joint; or make it a body of the worldbody",
                        articulated.front(), more));
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -321,22 +327,80 @@ void World::find_actors() {
     const scenario::Actor& actor = scenario_.actors[i];
     const int body = model_.id(mjOBJ_BODY, composed_.actor_bodies[i]);
     const Pose T_WA = model_.body_pose(body);
-    const PlanarPose home{T_WA.p.head<2>(), yaw(T_WA.R)};
-    actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
-                       about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
-                       actor.trajectory, Trigger(actor.start), actor.name});
-    if (actor.walks()) {
-      actors_.back().gait.emplace(model_, actor.name + "/");
-      find_limbs(actor, body);
-    }
-    place(actors_.back(), pose_on(actor.trajectory, home, 0));
+    const PlanarPose home{T_WA.p.head<2>(), std::atan2(T_WA.R(1, 0), T_WA.R(0, 0))};
+    actors_.push_back({body, T_WA.p.z(), about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R),
+                       home, actor.trajectory, Trigger(actor.start), actor.name});
+    if (actor.walks()) actors_.back().gait.emplace(model_, actor.name + "/");
+    find_joints(actors_.back(), actor);
+    if (actor.walks() || !actor.joints.empty()) find_limbs(body);
+    place(actors_.back(), -1);
   }
 }
 
-/// Each body below a walker's root body carries its geoms with a motion of its own.
-void World::find_limbs(const scenario::Actor& actor, int body) {
+/// Takes hold of all joints in the body of an actor that moves some of them. \throws input::Error
+/// for joints that it lacks, that are no hinges or slides, or that do not reach a value.
+void World::find_joints(MovingActor& actor, const scenario::Actor& asked) {
+  mjModel& m = model_.m();
+  std::vector<std::string> names;  // of its joints, which follow each other
+  int first = 0;
+  for (int joint = 0; joint < m.njnt; ++joint) {
+    if (m.body_rootid[m.jnt_bodyid[joint]] != actor.body) continue;
+    if (names.empty()) first = joint;
+    names.emplace_back(model_.name(mjOBJ_JOINT, joint));
+  }
+  for (const scenario::JointMotion& motion : asked.joints) {
+    const auto refuse = [&](const std::string& what) {
+      throw input::Error(motion.source, "joint '{}' {}", motion.name, what);
+    };
+    const auto found = std::ranges::find(names, motion.name);
+    if (found == names.end()) {
+      refuse(fmt::format("is not in body '{}'; its joints are called '{}'", *asked.body,
+                         fmt::join(input::nearest_first(motion.name, names), "', '")));
+    }
+    const int joint = first + static_cast<int>(found - names.begin());
+    const bool turns = m.jnt_type[joint] == mjJNT_HINGE;
+    if (!turns && m.jnt_type[joint] != mjJNT_SLIDE) {
+      refuse("is a ball or free joint, and actors move hinges and slides; make it one of these");
+    }
+    const Eigen::Map<const Eigen::Vector2d> range(m.jnt_range + 2 * joint);
+    for (const scenario::JointPoint& point : motion.points) {
+      if (point.is_angle != turns) {
+        refuse(turns ? "is a hinge; give angles, in deg or rad"
+                     : "is a slide; give lengths, as in m");
+      }
+      constexpr double kRounding = 1e-9;
+      const double beyond = std::max(range[0] - point.value, point.value - range[1]);
+      if (!m.jnt_limited[joint] || beyond < kRounding) continue;
+      const auto unit = turns ? input::Dimension::angle : input::Dimension::length;
+      refuse(fmt::format("moves to {}, and reaches {} to {} ({}); stay within this",
+                         input::quantity_text(point.value, unit),
+                         input::quantity_text(range[0], unit), input::quantity_text(range[1], unit),
+                         input::text_of(composed_.source(mjOBJ_JOINT, motion.name))));
+    }
+    actor.joints.push_back({m.jnt_qposadr[joint], m.jnt_dofadr[joint], motion.points});
+  }
+  if (actor.joints.empty()) return;
+  const int end = first + static_cast<int>(names.size());
+  const bool is_last = end == m.njnt;
+  actor.positions = {m.jnt_qposadr[first], is_last ? static_cast<int>(m.nq) : m.jnt_qposadr[end]};
+  actor.velocities = {m.jnt_dofadr[first], is_last ? static_cast<int>(m.nv) : m.jnt_dofadr[end]};
+  for (int dof = actor.velocities[0]; dof < actor.velocities[1]; ++dof) {
+    m.dof_armature[dof] = kImmovable;
+    m.tree_sleep_policy[m.dof_treeid[dof]] = mjSLEEP_NEVER;
+  }
+  if (names.size() > actor.joints.size()) {
+    composed_.frozen.push_back(
+        fmt::format("actor '{}' moves {} of {} joints; the others stay at zero", actor.name,
+                    actor.joints.size(), names.size()));
+  }
+}
+
+/// Each body below the root body of a walker, or of a body with joints that an actor moves, carries
+/// its geoms with a motion of its own.
+void World::find_limbs(int body) {
   const mjModel& m = model_.m();
-  const int object = std::ranges::find(objects_, actor.name, &Object::name)->id;
+  const auto object =
+      static_cast<int>(std::ranges::find(object_bodies_, body) - object_bodies_.begin());
   for (int limb = body + 1; limb < m.nbody && m.body_rootid[limb] == body; ++limb) {
     for (int i = 0; i < m.body_geomnum[limb]; ++i) {
       carrier_of_geom_[static_cast<std::size_t>(m.body_geomadr[limb] + i)] =
@@ -466,25 +530,39 @@ void World::note_looks(const Drawables& drawables) {
   }
 }
 
-void World::place(const MovingActor& actor, const PlanarPose& pose) {
+/// Places an actor `seconds` after its trigger. \return whether it moves.
+bool World::place(const MovingActor& actor, double seconds) {
+  const mjModel& m = model_.m();
   mjData& d = model_.d();
+  bool moves = false;
+  std::copy(m.qpos0 + actor.positions[0], m.qpos0 + actor.positions[1],
+            d.qpos + actor.positions[0]);
+  std::fill(d.qvel + actor.velocities[0], d.qvel + actor.velocities[1], 0);
+  for (const MovingJoint& joint : actor.joints) {
+    const auto [value, rate] = joint_at(joint.points, seconds);
+    d.qpos[joint.position] = value;
+    d.qvel[joint.velocity] = rate;
+    moves |= rate != 0;
+  }
+  const int mocap = m.body_mocapid[actor.body];
+  if (mocap < 0) return moves;
+  const PlanarPose pose = pose_on(actor.trajectory, actor.home, seconds);
   const Eigen::Quaterniond q = about_z(pose.heading_rad) * actor.upright;
-  Eigen::Map<Eigen::Vector3d>(d.mocap_pos + 3 * actor.mocap) << pose.position_m, actor.height_m;
-  Eigen::Map<Eigen::Vector4d>(d.mocap_quat + 4 * actor.mocap) << q.w(), q.vec();
+  Eigen::Map<Eigen::Vector3d>(d.mocap_pos + 3 * mocap) << pose.position_m, actor.height_m;
+  Eigen::Map<Eigen::Vector4d>(d.mocap_quat + 4 * mocap) << q.w(), q.vec();
   if (actor.gait) actor.gait->place(model_.m(), pose.walked_m);
+  const Eigen::Map<const Eigen::Vector2d> here(d.xpos + 3 * actor.body);
+  return (pose.position_m - here).norm() > kMoves_m;
 }
 
 void World::move_actors() {
   const mjData& d = model_.d();
   const Eigen::Map<const Eigen::Vector2d> ego(d.xpos + 3 * base_);
   for (MovingActor& actor : actors_) {
-    const Eigen::Map<const Eigen::Vector2d> here(d.mocap_pos + 3 * actor.mocap);
+    const Eigen::Map<const Eigen::Vector2d> here(d.xpos + 3 * actor.body);
     const double distance_m = (here - ego).norm();
     actor.nearest_m = std::min(actor.nearest_m, distance_m);
-    const PlanarPose pose =
-        pose_on(actor.trajectory, actor.home, actor.trigger.update(t_ns_, distance_m));
-    actor.has_moved |= (pose.position_m - here).norm() > kMoves_m;
-    place(actor, pose);
+    actor.has_moved |= place(actor, actor.trigger.update(t_ns_, distance_m));
   }
 }
 
@@ -525,8 +603,9 @@ void World::forward() {
 /// Warns, once, of actors that did not move until the last frame although they should.
 void World::end_watch() {
   if (std::exchange(is_watch_over_, true)) return;
-  for (const MovingActor& actor : actors_) {
-    if (actor.has_moved || std::holds_alternative<scenario::Still>(actor.trajectory)) continue;
+  for (std::size_t i = 0; i < actors_.size(); ++i) {
+    const MovingActor& actor = actors_[i];
+    if (actor.has_moved || scenario_.actors[i].stands()) continue;
     warnings().add(
         Warning::actors_never_moved,
         fmt::format("actor '{}' never moves: its start trigger does not fire within {:.1f} s (the "
@@ -628,17 +707,19 @@ void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
 
 std::string World::saved(bool as_mjcf) {
   mjModel& m = model_.m();
+  const auto keep = [&](int body) {  // its present pose
+    const Pose T_PB = model_.body_pose(m.body_parentid[body]).inverse() * model_.body_pose(body);
+    const Eigen::Quaterniond q(T_PB.R);
+    Eigen::Map<Eigen::Vector3d>(m.body_pos + 3 * body) = T_PB.p;
+    Eigen::Map<Eigen::Vector4d>(m.body_quat + 4 * body) << q.w(), q.vec();
+  };
   for (const MovingActor& actor : actors_) {
-    for (int body = 1; body < m.nbody; ++body) {
-      if (m.body_mocapid[body] != actor.mocap) continue;
-      std::copy_n(model_.d().mocap_pos + 3 * actor.mocap, 3, m.body_pos + 3 * body);
-      std::copy_n(model_.d().mocap_quat + 4 * actor.mocap, 4, m.body_quat + 4 * body);
+    for (int b = actor.body; b < m.nbody && m.body_rootid[b] == actor.body; ++b) keep(b);
+    for (const MovingJoint& joint : actor.joints) {
+      m.qpos0[joint.position] = model_.d().qpos[joint.position];
     }
   }
-  const Pose T_WB = this->T_WB();
-  const Eigen::Quaterniond q(T_WB.R);
-  Eigen::Map<Eigen::Vector3d>(m.body_pos + 3 * base_) = T_WB.p;
-  Eigen::Map<Eigen::Vector4d>(m.body_quat + 4 * base_) << q.w(), q.x(), q.y(), q.z();
+  keep(base_);
   const int joint = m.body_jntadr[base_];
   if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
     std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
@@ -689,17 +770,15 @@ ScenePoses World::stage_before(std::int64_t t_ns) {
   const mjModel& m = model_.m();
   mjData& d = model_.d();
   const std::vector<mjtNum> qpos(d.qpos, d.qpos + m.nq);
-  call_mujoco([&] {
-    mj_integratePos(&m, d.qpos, d.qvel, 1e-9 * static_cast<double>(t_ns));
+  const auto pose_all = [&] {
     mj_kinematics(&m, &d);
     mj_camlight(&m, &d);
-  });
+  };
+  call_mujoco([&] { mj_integratePos(&m, d.qpos, d.qvel, 1e-9 * static_cast<double>(t_ns)); });
+  call_mujoco(pose_all);
   ScenePoses before = stage();
   std::ranges::copy(qpos, d.qpos);
-  call_mujoco([&] {
-    mj_kinematics(&m, &d);
-    mj_camlight(&m, &d);
-  });
+  call_mujoco(pose_all);
   return before;
 }
 
@@ -720,18 +799,18 @@ Snapshot World::snapshot_of(const ScenePoses& stage) {
 }
 
 Eigen::Vector3d World::v_WB_mps() const {
-  return velocity(model_, mjOBJ_XBODY, base_).linear;
+  return velocity(model_, mjOBJ_XBODY, base_).tail<3>();
 }
 Eigen::Vector3d World::v_WS_mps() const {
-  return velocity(model_, mjOBJ_SITE, imu_site_).linear;
+  return velocity(model_, mjOBJ_SITE, imu_site_).tail<3>();
 }
 Eigen::Vector3d World::v_WC_mps() const {
-  return velocity(model_, mjOBJ_CAMERA, camera_).linear;
+  return velocity(model_, mjOBJ_CAMERA, camera_).tail<3>();
 }
 
 Eigen::Vector3d World::w_C_radps() const {
   return model_.camera_pose(camera_).R.transpose() *
-         velocity(model_, mjOBJ_CAMERA, camera_).angular;
+         velocity(model_, mjOBJ_CAMERA, camera_).head<3>();
 }
 
 }  // namespace lcs::sim

@@ -110,8 +110,12 @@ class World {
   Eigen::Vector3d w_C_radps() const;
 
  private:
+  struct MovingJoint {
+    int position, velocity;  ///< index in MuJoCo's qpos and qvel
+    std::vector<scenario::JointPoint> points;
+  };
   struct MovingActor {
-    int mocap = 0;
+    int body = 0;
     double height_m = 0;                                          ///< of the body's origin
     Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();  ///< attitude at heading 0
     PlanarPose home;
@@ -121,6 +125,8 @@ class World {
     double nearest_m = std::numeric_limits<double>::infinity();  ///< to the rover, between origins
     bool has_moved = false;
     std::optional<Gait> gait = std::nullopt;
+    std::vector<MovingJoint> joints = {};               ///< with any, the trajectory does not count
+    Eigen::Vector2i positions{0, 0}, velocities{0, 0};  ///< [begin, end) of all joints in its body
   };
 
   struct Loaded {
@@ -133,13 +139,14 @@ class World {
   void find_objects();
   void place_imu();
   void find_actors();
-  void find_limbs(const scenario::Actor& actor, int body);
+  void find_joints(MovingActor& actor, const scenario::Actor& asked);
+  void find_limbs(int body);
   void begin_watch(WrongStart wrong_start);
   void note_looks(const Drawables& drawables);
   void note_load();
   void note_coplanar();
   void end_watch();
-  void place(const MovingActor& actor, const PlanarPose& pose);
+  bool place(const MovingActor& actor, double seconds);
   void move_actors();
   void forward();
   void step_to(std::int64_t t_ns);

@@ -251,10 +251,6 @@ INSTANTIATE_TEST_SUITE_P(
             "Huge", "camera: {position: [0, 1e999 m, 0]}\n",
             "4: camera.position.1: '1e999 m' does not fit a double; give a length in m, cm, mm or "
             "km"),
-        added("NanForTheFilter", "filter: {circle.mu_0: nan}\n",
-              "4: filter.circle.mu_0: 'nan' is not finite; give a number"),
-        added("YamlNanForTheFilter", "filter: {circle.mu_0: -.inf}\n",
-              "4: filter.circle.mu_0: '-.inf' is not finite; give a number"),
         added("ListForTheFilter", "filter: {circle.mu_0: [1]}\n",
               "4: filter.circle.mu_0 is a list; give a text"),
         added("NanBound", "criteria: [{metric: a, min: nan}]\n",
@@ -291,7 +287,8 @@ INSTANTIATE_TEST_SUITE_P(
     Ego, Refused,
     testing::Values(
         ego("UnknownDrive", "{drive: tracks}",
-            "ego.drive is 'tracks'; give holonomic, wheeled or the path of an .xml file"),
+            "ego.drive is 'tracks'; give holonomic, wheeled or the path of an .xml file (with size "
+            "and ground; it may attach a .urdf)"),
         ego("NoOwnRover", "{drive: r.xml}",
             "ego.drive: there is no file r.xml; give its path relative to the scenario file"),
         ego("WaypointsAndSpeed", "{speed: 1, waypoints: [[0, 0, 0], [1, 1, 1]]}",
@@ -325,7 +322,16 @@ INSTANTIATE_TEST_SUITE_P(
         added(
             "UnknownShape", "actors:\n  a: {shape: ball, trajectory: {still: {}}}\n",
             "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car, walker or the path "
-            "of an .xml file"),
+            "of an .xml file (with size and ground; it may attach a .urdf)"),
+        added("JointWithoutNames", "actors:\n  a: {body: door, joint: {}}\n",
+              "5: actors.a.joint has no joint; give {NAME: [[0 s, 0 deg], [2 s, 80 deg]]}"),
+        added(
+            "JointThatStandsStill", "actors:\n  a: {body: door, joint: {hinge: [[0 s, 0 deg]]}}\n",
+            "5: actors.a.joint.hinge has fewer than two waypoints; give two or more [time, angle] "
+            "of a hinge, or [time, length] of a slide"),
+        added("JointOfAShape",
+              "actors:\n  a: {shape: box, joint: {hinge: [[0 s, 0 deg], [1 s, 9 deg]]}}\n",
+              "5: both actors.a.shape and actors.a.joint are given; keep one of them"),
         added("NoOwnShape", "actors:\n  a: {shape: truck.xml, trajectory: {still: {}}}\n",
               "5: actors.a.shape: there is no file truck.xml; give its path relative to the "
               "scenario file"),

@@ -340,7 +340,7 @@ actors:
 
   const Actor& walker = s.actors[2];
   EXPECT_EQ(walker.shape, Shape::pedestrian);
-  const auto& points = std::get<Waypoints>(walker.trajectory).points;
+  const auto& points = std::get<Waypoints>(walker.trajectory);
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[1].at_s, 0.5);
   EXPECT_EQ(points[1].position_m, Eigen::Vector2d(3, 4));

@@ -120,10 +120,6 @@ Json schema_of(Plain, const std::vector<PathPose>&) {
   return path_of({kTime, kPosition, kPosition, kPosition, kAngle, kAngle, kAngle});
 }
 
-Json schema_of(Plain, const Waypoints& waypoints) {
-  return schema_of(Plain{}, waypoints.points);
-}
-
 Json schema_of(GroupNames, const std::vector<std::string>&) {
   const Json name{{"type", "string"}, {"pattern", "^[a-z0-9_-]+$"}};
   return {{"type", "array"}, {"items", name}, {"minItems", 1}, {"uniqueItems", true}};
@@ -144,6 +140,15 @@ Json schema_of(Plain, const std::vector<SweptKey>&) {
   return {{"type", "object"},
           {"minProperties", 1},
           {"additionalProperties", {{"type", "array"}, {"minItems", 1}, {"uniqueItems", true}}}};
+}
+
+Json schema_of(Plain, const std::vector<JointMotion>&) {
+  const Json value{{"anyOf", {schema_of(kJointAngle, 0.0), schema_of(kPosition, 0.0)}}};
+  const Json point{{"type", "array"},
+                   {"items", {schema_of(kTime, 0.0), value}},
+                   {"minItems", 2},
+                   {"maxItems", 2}};
+  return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", array_of(point, 2)}};
 }
 
 Json schema_of(Plain, const std::vector<Actor>&) {

@@ -111,7 +111,7 @@ TEST(Set, MistakesAreReportedAtTheAssignment) {
       "--set camera={rate: 5: this is not YAML: end of map flow not found; check indentation, "
       "brackets and quotes");
   EXPECT_EQ(refusal_with("actors.new.shape=box"),
-            "--set actors.new.shape=box: actors.new needs 'trajectory'; add it "
+            "--set actors.new.shape=box: actors.new needs 'trajectory' or 'joint'; add it "
             "(scenarios/README.md shows how)");
   EXPECT_EQ(refusal_with("ego.speed=\xff"),
             "--set ego.speed=\\xff: this is not UTF-8; save the file as UTF-8");

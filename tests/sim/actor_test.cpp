@@ -56,7 +56,7 @@ TEST(Trajectory, LineFromRestThatBrakesStays) {
   EXPECT_EQ(pose_on(line, kHome, 5).position_m, Vector2d(0, 0));
 }
 
-const scenario::Waypoints kDogleg{{{1, {0, 0}}, {3, {4, 0}}, {5, {4, 0}}, {6, {4, 3}}}};
+const scenario::Waypoints kDogleg{{1, {0, 0}}, {3, {4, 0}}, {5, {4, 0}}, {6, {4, 3}}};
 
 TEST(Trajectory, WaypointsAreReachedAtTheirTimesAndUniformInBetween) {
   EXPECT_EQ(pose_on(kDogleg, kHome, 1).position_m, Vector2d(0, 0));
@@ -78,12 +78,12 @@ TEST(Trajectory, WaypointsHeadTheWayTheyMoveAndKeepTheHeadingWhileTheyPause) {
   EXPECT_NEAR(pose_on(kDogleg, kHome, 5.5).heading_rad, pi / 2, kExact);
   EXPECT_NEAR(pose_on(kDogleg, kHome, 60).heading_rad, pi / 2, kExact);
 
-  const scenario::Waypoints pause_first{{{0, {0, 0}}, {1, {0, 0}}, {2, {0, -1}}}};
+  const scenario::Waypoints pause_first{{0, {0, 0}}, {1, {0, 0}}, {2, {0, -1}}};
   EXPECT_NEAR(pose_on(pause_first, kHome, 0.5).heading_rad, -pi / 2, kExact);
 }
 
 TEST(Trajectory, WaypointsThatLeadNowhereKeepTheScenesHeading) {
-  const scenario::Waypoints nowhere{{{0, {1, 1}}, {1, {1, 1}}}};
+  const scenario::Waypoints nowhere{{0, {1, 1}}, {1, {1, 1}}};
   EXPECT_EQ(pose_on(nowhere, kHome, 0.5).heading_rad, kHome.heading_rad);
 }
 

@@ -198,6 +198,21 @@ TEST_F(OwnActor, IsScaledWithAllThatIsInIt) {
       << high.transpose() << " to " << scaled_high.transpose();
 }
 
+/// Uneven scaling shears what is turned: vertices go where the actor's axes say.
+TEST_F(OwnActor, ScalesMeshesAlongItsOwnAxesHoweverTheyAreTurned) {
+  write("fork.obj", kObj);
+  auto s = on_floor();
+  s.actors = {
+      own_actor("truck", file({.asset = "<asset><mesh file='fork.obj'/></asset>",
+                               .inside = "<body pos='.1 .2 .3' euler='10 20 30'><geom type='mesh' "
+                                         "mesh='fork' pos='.1 0 0' euler='40 50 60'/></body>"}))};
+  const auto [low, high] = extent(World(s));
+  s.actors[0].size_m = Vector3d(2, 1.5, 4);
+  const auto [scaled_low, scaled_high] = extent(World(s));
+  EXPECT_LT((scaled_low - low.cwiseProduct(Vector3d(2, 3, 4))).norm(), 1e-5);
+  EXPECT_LT((scaled_high - high.cwiseProduct(Vector3d(2, 3, 4))).norm(), 1e-5);
+}
+
 TEST_F(OwnActor, MeansTheSameInASceneOfOtherAnglesAndDefaults) {
   const std::string scene = floor_with("");
   std::string other = scene;

@@ -433,6 +433,7 @@ TEST_F(TuneCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
       {{"--keys", "field.ground"}, "only a number above 0"},
       {{"--set", "hypotheses.prio=1"}, "the nearest is 'hypotheses.prior'"},
       {{"--set", "hypotheses.prior=x"}, "takes a number"},
+      {{"--set", "hypotheses.prior=nan"}, "takes a number"},
       {{suite().string()}, "one suite"},
       {{same}, "one suite"},
       {{link}, "one suite"},

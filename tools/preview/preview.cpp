@@ -16,12 +16,11 @@ namespace lcs::preview {
 namespace {
 
 constexpr int kJpegQuality = 85;
-constexpr double kStands_m = 1e-4;  // m, largest step of a static actor between frames
 
 PreviewMover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
                       const std::vector<Look>& looks, std::size_t actor) {
-  PreviewMover mover{.name = scenario.actors[actor].name, .object = survey.actors[actor]};
-  const auto id = static_cast<std::size_t>(mover.object);
+  const std::size_t id = survey.actors[actor].front();
+  PreviewMover mover{.name = scenario.actors[actor].name, .object = static_cast<int>(id)};
   for (std::size_t k = 0; k < survey.snapshots.size(); ++k) {
     const Eigen::Vector2d here = survey.snapshots[k].T_WO[id].p.head<2>();
     const double t_s = static_cast<double>(k) / scenario.camera.rate_hz;
@@ -30,7 +29,10 @@ PreviewMover mover_of(const scenario::Scenario& scenario, const sim::Survey& sur
       mover.nearest_m = distance_m;
       mover.nearest_s = t_s;
     }
-    if (k > 0 && (here - mover.way_m.back()).norm() > kStands_m) {
+    const auto moves = [&](std::size_t part) {
+      return sim::moved(survey.snapshots[k - 1].T_WO[part], survey.snapshots[k].T_WO[part]);
+    };
+    if (k > 0 && std::ranges::any_of(survey.actors[actor], moves)) {
       if (!mover.moves) mover.moves = {t_s - 1 / scenario.camera.rate_hz, t_s};
       mover.moves->to_s = t_s;
     }

@@ -57,7 +57,7 @@ ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object
   for (const scenario::Actor& actor : scenario.actors) {
     if (actor.body.value_or(actor.name) != object.name) continue;
     kind.category = category_of(actor);
-    kind.moves = !std::holds_alternative<scenario::Still>(actor.trajectory);
+    kind.moves = !actor.stands();
   }
   kind.coco = place_of(kind.category, categories_of(scenario));
   kind.mot = place_of(kind.category, kMotClasses);
