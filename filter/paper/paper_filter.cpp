@@ -2,103 +2,56 @@
 
 #include <optional>
 
-#include "filter/ego_motion/intake.h"
-#include "filter/paper/feedback.h"
-#include "filter/paper/paper_circles.h"
-#include "filter/paper/paper_edges.h"
-#include "filter/paper/paper_squares.h"
 #include "filter/set_layers.h"
 #include "filter/stopwatch.h"
 #include "filter/vectors/refill.h"
 
 namespace lcs::paper {
 
-struct PaperFilter::Impl {
-  Impl(const Intrinsics& c, const PaperParameters& p)
-      : camera(c),
-        parameters(p),
-        feedback(p.circle.trust),
-        line(c, p.line),
-        edge_expert(c, p.edge, p.circle.trust),
-        circle_expert(c, p.circle, p.edge.corner_noise, p.ignore),
-        square_expert(c, p.square, p.ignore) {
-    lcs::validate(c);
-    validate(p);
-  }
-
-  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
-                          std::span<const Signature> signatures, const EgoMotion& told);
-
-  Intrinsics camera;
-  PaperParameters parameters;
-  Intake intake;
-  Diagnostics diagnostics;
-  Feedback feedback;
-  LineExpert line;
-  PaperEdges edge_expert;
-  PaperCircles circle_expert;
-  PaperSquares square_expert;
-  EdgeLayer edges;
-  CircleExpert::Result circles;
-  std::vector<Square> squares;
-  FrameResult result;
-};
-
-const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
-                                           std::span<const Signature> signatures,
-                                           const EgoMotion& told) {
-  Stopwatch<> watch;
-  const std::optional<EgoMotion> motion = intake.take(told, diagnostics);
-  if (!motion) {
-    edges = {};
-    circles = {};
-    squares.clear();
-  }
-  const MotionField field(camera, motion.value_or(EgoMotion{}), parameters.field);
-  PaperEdges::predict(edges, field);
-  PaperCircles::predict(circles.circles, field);
-  PaperSquares::predict(squares, field);
-
-  auto& [psi, lambda, alpha] = result.paper;
-  feedback.set_regions(circles.circles.normal, squares, result.paper);
-  const Chi& chi = line.collect(corners_px, signatures, psi);
-  count_rejected(chi, diagnostics);
-  const std::vector<int>& groups = feedback.group(lambda, chi);
-  result.times.line_ms = watch.lap_ms();
-
-  const auto& [verdicts, reasons] = edge_expert.update(edges, chi, groups, psi, field);
-  circle_expert.update(edges.edges, psi, field, circles);
-  result.times.circle_ms = watch.lap_ms();
-
-  square_expert.update(circles.circles, psi, field, squares);
-  result.times.square_ms = watch.lap_ms();
-
-  assign_verdicts(chi, verdicts, reasons, {}, result);
-  set_layers(edges.edges, circles, squares, result.layers);
-  copy_over(edges.chains, alpha);
-  return result;
-}
-
 PaperFilter::PaperFilter(const Intrinsics& camera, const PaperParameters& parameters)
-    : impl_(new Impl(camera, parameters)) {}
-PaperFilter::~PaperFilter() = default;
-PaperFilter::PaperFilter(PaperFilter&&) noexcept = default;
-PaperFilter& PaperFilter::operator=(PaperFilter&&) noexcept = default;
-
-const FrameResult& PaperFilter::step(std::span<const Eigen::Vector2f> corners_px,
-                                     const EgoMotion& motion) {
-  return impl_->step(corners_px, {}, motion);
+    : camera_(camera),
+      field_(parameters.field),
+      feedback_(parameters.circle.trust),
+      line_(camera, parameters.line),
+      edge_expert_(camera, parameters.edge, parameters.circle.trust),
+      circle_expert_(camera, parameters.circle, parameters.edge.corner_noise, parameters.ignore),
+      square_expert_(camera, parameters.square, parameters.ignore) {
+  lcs::validate(camera);
+  validate(parameters);
 }
 
-const FrameResult& PaperFilter::step(std::span<const Eigen::Vector2f> corners_px,
-                                     std::span<const Signature> signatures,
-                                     const EgoMotion& motion) {
-  lcs::validate(corners_px, signatures);
-  return impl_->step(corners_px, signatures, motion);
-}
+const FrameResult& PaperFilter::take(std::span<const Eigen::Vector2f> corners_px,
+                                     std::span<const Signature> signatures, const EgoMotion& told) {
+  Stopwatch<> watch;
+  const std::optional<EgoMotion> motion = intake_.take(told, diagnostics_);
+  if (!motion) {
+    edges_ = {};
+    circles_ = {};
+    squares_.clear();
+  }
+  const MotionField field(camera_, motion.value_or(EgoMotion{}), field_);
+  PaperEdges::predict(edges_, field);
+  PaperCircles::predict(circles_.circles, field);
+  PaperSquares::predict(squares_, field);
 
-const Diagnostics& PaperFilter::diagnostics() const {
-  return impl_->diagnostics;
+  auto& [psi, lambda, alpha] = result_.paper;
+  feedback_.set_regions(circles_.circles.normal, squares_, result_.paper);
+  const Chi& chi = line_.collect(corners_px, signatures, psi);
+  count_rejected(chi, diagnostics_);
+  const std::vector<int>& groups = feedback_.group(lambda, chi);
+  result_.times.line_ms = watch.lap_ms();
+
+  const auto& [verdicts, reasons] = edge_expert_.update(edges_, chi, groups, psi, field);
+  circle_expert_.update(edges_.edges, psi, field, circles_);
+  result_.times.circle_ms = watch.lap_ms();
+
+  square_expert_.update(circles_.circles, psi, field, squares_);
+  result_.times.square_ms = watch.lap_ms();
+
+  assign_verdicts(chi, verdicts, reasons, {}, result_);
+  set_layers(edges_.edges, circles_, squares_, result_.layers);
+  copy_over(edges_.chains, alpha);
+  return result_;
 }
 
 }  // namespace lcs::paper
