@@ -29,20 +29,10 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
   const Vec2 axis = up.isZero() ? Vec2(Vec2::UnitY()) : up.normalized();
   const double upward =
       std::sqrt(1 - (1 - parameters_.upward * parameters_.upward) * up.squaredNorm());
-  of_edge_.clear();
-  sums_.clear();
-  depths_.clear();
-  variances_.clear();
-  reach_px_.clear();
-  points_.clear();
   const auto seen = static_cast<std::size_t>(
       std::ranges::count_if(edges, [](const Edge& edge) { return edge.corner >= 0; }));
-  make_room(of_edge_, seen);
-  make_room(sums_, seen);
-  make_room(depths_, seen);
-  make_room(variances_, seen);
-  make_room(reach_px_, seen);
-  make_room(points_, seen);
+  const auto empty = [&](auto&... columns) { (..., (columns.clear(), make_room(columns, seen))); };
+  empty(of_edge_, sums_, depths_, variances_, reach_px_, points_);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
     if (edge.corner < 0 || (!edge.rebel && !has_depth(edge))) continue;

@@ -19,13 +19,14 @@ bool is_known(const Edge& edge) {
 }  // namespace
 
 /// Log likelihood ratio of a circle: it comes / it stands or hangs; 0 if nothing can be told.
-double Comers::evidence(Id circle, std::span<const int> members, std::span<const GroundEdge> seen,
-                        const MotionField& field, const GroundView& ground, GapView& view) {
+double Comers::evidence(Id circle, std::span<const int> members, const RadialFrame& frame,
+                        GapView& view) {
   if (parameters_.hanging >= 1) return 0;  // nothing could speak for a comer
+  const GroundView& ground = frame.ground;
   depths_pm_.clear();
   double foot = -std::numeric_limits<double>::infinity(), top = -foot, left = -foot, right = foot;
   for (const int i : members) {
-    const GroundEdge& edge = seen[i];
+    const GroundEdge& edge = frame.seen[i];
     depths_pm_.push_back(edge.inverse_depth_pm);
     foot = std::max(foot, edge.down);
     top = std::min(top, edge.down);
@@ -38,7 +39,7 @@ double Comers::evidence(Id circle, std::span<const int> members, std::span<const
   // The foot may be hidden by anything that is neither the ground nor farther than the circle.
   const double margin = circle_.gap_m * W;
   double lowest = foot;
-  for (const GroundEdge& edge : seen) {
+  for (const GroundEdge& edge : frame.seen) {
     const bool is_below = edge.is_seen && !edge.is_ground && edge.down > lowest &&
                           edge.down < stands_down && edge.along > left - margin &&
                           edge.along < right + margin;
@@ -52,8 +53,9 @@ double Comers::evidence(Id circle, std::span<const int> members, std::span<const
   const double q = 1 - foot / stands_down;  // height of the foot, in heights of the camera
   const double stop = std::min(stands_down, ground.lowest());
   if (!(q > 0 && q < 1 && stop > foot)) return 0;
-  const double speed_mps = field.displacement_C_m().norm() / field.dt_s();
-  const double speed_share = std::hypot(field.velocity_sigma_mps() / speed_mps, edge_.ego_share);
+  const double speed_mps = frame.field.displacement_C_m().norm() / frame.field.dt_s();
+  const double speed_share =
+      std::hypot(frame.field.velocity_sigma_mps() / speed_mps, edge_.ego_share);
   const Eigen::Vector3d sigmas(ground.slack_pm() / W, circle_.roughness, (1 - q) * speed_share);
   const double z = q / sigmas.norm();
   if (z < 1) return 0;
@@ -91,26 +93,24 @@ void Comers::recall(const std::vector<Edge>& edges) {
   beliefs_.swap(next_);
 }
 
-void Comers::believe(std::span<const GroundEdge> seen, const CircleExpert::Result& circles,
-                     const MotionField& field, const GroundView& ground, GapView& view) {
-  const std::vector<Circle>& normal = circles.circles.normal;
-  members_.collect(circles.of_edges.normal, normal.size());
-  refill(result_.odds, seen.size(), -std::numeric_limits<double>::infinity());
+void Comers::believe(const RadialFrame& frame, GapView& view) {
+  const std::vector<Circle>& normal = frame.circles.circles.normal;
+  members_.collect(frame.circles.of_edges.normal, normal.size());
+  refill(result_.odds, frame.seen.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < normal.size(); ++c) {
     const std::span<const int> members = members_.of(c);
     double before = 0;
     for (const int i : members) before += beliefs_[i].log_odds;
     before /= static_cast<double>(members.size());
-    const double now =
-        log_odds(edge_.prior) + evidence(normal[c].id, members, seen, field, ground, view);
+    const double now = log_odds(edge_.prior) + evidence(normal[c].id, members, frame, view);
     const double belief = before + (now - before) / parameters_.memory;
     for (const int i : members) result_.odds[i] = beliefs_[i].log_odds = belief;
   }
 }
 
 /// An edge without a known depth, and a corner without an edge, follow the nearest edge with one.
-void Comers::inherit(const std::vector<Edge>& edges, std::span<const Eigen::Vector2f> corners_px,
-                     std::span<const Reason> reasons) {
+void Comers::inherit(const RadialFrame& frame) {
+  const std::vector<Edge>& edges = frame.edges.normal;
   known_.clear();
   places_.clear();
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -130,25 +130,19 @@ void Comers::inherit(const std::vector<Edge>& edges, std::span<const Eigen::Vect
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges[i].corner >= 0 && !is_known(edges[i])) result_.odds[i] = odds_near(edges[i].location);
   }
-  for (std::size_t c = 0; c < corners_px.size(); ++c) {
-    if (reasons[c] != Reason::first_sighting) continue;
-    const double odds = odds_near(corners_px[c].cast<double>());
+  for (std::size_t c = 0; c < frame.corners_px.size(); ++c) {
+    if (frame.reasons[c] != Reason::first_sighting) continue;
+    const double odds = odds_near(frame.corners_px[c].cast<double>());
     if (odds > 0) result_.inherited.push_back({static_cast<int>(c), static_cast<float>(odds)});
   }
 }
 
-const Comers::Result& Comers::step(const std::vector<Edge>& edges, std::span<const GroundEdge> seen,
-                                   const CircleExpert::Result& circles,
-                                   std::span<const Eigen::Vector2f> corners_px,
-                                   std::span<const Reason> reasons, const MotionField& field,
-                                   const GroundView& ground, GapView& view) {
+const Comers::Result& Comers::step(const RadialFrame& frame, GapView& view) {
   result_.inherited.clear();
   result_.gaps.clear();
-  recall(edges);
-  believe(seen, circles, field, ground, view);
-  if (std::ranges::any_of(result_.odds, [](double odds) { return odds > 0; })) {
-    inherit(edges, corners_px, reasons);
-  }
+  recall(frame.edges.normal);
+  believe(frame, view);
+  if (std::ranges::any_of(result_.odds, [](double odds) { return odds > 0; })) inherit(frame);
   return result_;
 }
 

@@ -11,9 +11,10 @@
 
 namespace lcs {
 /// Joins normal edges to a rebel circle that moves as a static body below the ground would.
-void Goers::join(int circle, const std::vector<Edge>& rebels,
-                 const std::vector<int>& circle_of_rebel, std::span<const GroundEdge> seen,
-                 const MotionField& field, const GroundView& ground) {
+void Goers::join(int circle, const RadialFrame& frame) {
+  const std::vector<Edge>& rebels = frame.edges.rebel;
+  const std::span<const GroundEdge> seen = frame.seen;
+  const GroundView& ground = frame.ground;
   apparent_pm_.clear();
   across_px_.clear();
   front_.clear();
@@ -21,10 +22,10 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
   double left = -lowest, right = lowest;
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     const Edge& edge = rebels[i];
-    if (circle_of_rebel[i] != circle || edge.corner < 0) continue;
+    if (frame.circles.of_edges.rebel[i] != circle || edge.corner < 0) continue;
     // Image motion divided by the image motion of a static point at a depth of 1 m.
-    const Vec2 flow_px = field.parallax_px_m(edge.origin);
-    const Vec2 step_px = edge.velocity() * field.dt_s();
+    const Vec2 flow_px = frame.field.parallax_px_m(edge.origin);
+    const Vec2 step_px = edge.velocity() * frame.field.dt_s();
     if (!(flow_px.norm() > 0)) continue;
     apparent_pm_.push_back(flow_px.dot(step_px) / flow_px.squaredNorm());
     across_px_.push_back(std::abs(cross(flow_px, step_px)) / flow_px.norm());
@@ -80,13 +81,11 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
   }
 }
 
-const Goers::Result& Goers::step(const BothKinds<Edge>& edges, std::span<const GroundEdge> seen,
-                                 const CircleExpert::Result& circles, const MotionField& field,
-                                 const GroundView& ground) {
-  refill(result_.circle, seen.size(), -1);
-  refill(result_.odds, seen.size());
-  for (std::size_t c = 0; c < circles.circles.rebel.size(); ++c) {
-    join(static_cast<int>(c), edges.rebel, circles.of_edges.rebel, seen, field, ground);
+const Goers::Result& Goers::step(const RadialFrame& frame) {
+  refill(result_.circle, frame.seen.size(), -1);
+  refill(result_.odds, frame.seen.size());
+  for (std::size_t c = 0; c < frame.circles.circles.rebel.size(); ++c) {
+    join(static_cast<int>(c), frame);
   }
   return result_;
 }

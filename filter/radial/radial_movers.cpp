@@ -19,13 +19,13 @@ RadialMovers::Result RadialMovers::step(const BothKinds<Edge>& edges,
   make_room(seen_, edges.normal.size());
   for (const Edge& edge : edges.normal) seen_.emplace_back(edge, ground, field, circle_);
 
-  const Goers::Result& went = goers_.step(edges, seen_, circles, field, ground);
+  const RadialFrame frame{edges, circles, seen_, corners_px, reasons, field, ground};
+  const Goers::Result& went = goers_.step(frame);
   copy_over(went.odds, odds_);
   copy_over(went.circle, joined_);
   Result result;
   if (view != nullptr) {
-    result.came =
-        &comers_.step(edges.normal, seen_, circles, corners_px, reasons, field, ground, *view);
+    result.came = &comers_.step(frame, *view);
     for (std::size_t i = 0; i < odds_.size(); ++i) {
       if (!(result.came->odds[i] > 0)) continue;
       odds_[i] = result.came->odds[i];
@@ -33,15 +33,15 @@ RadialMovers::Result RadialMovers::step(const BothKinds<Edge>& edges,
     }
   }
   if (std::ranges::any_of(odds_, [](double odds) { return odds > 0; })) {
-    result.moved = &relabel_.step(edges, circles, odds_, joined_, field, circle_.trust);
+    result.moved = &relabel_.step(frame, odds_, joined_, circle_.trust);
   }
   return result;
 }
 
-const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
-                                     const CircleExpert::Result& circles,
-                                     std::span<const double> odds, std::span<const int> joined,
-                                     const MotionField& field, const TrustRanks& trust) {
+const Relabel::Result& Relabel::step(const RadialFrame& frame, std::span<const double> odds,
+                                     std::span<const int> joined, const TrustRanks& trust) {
+  const BothKinds<Edge>& edges = frame.edges;
+  const CircleExpert::Result& circles = frame.circles;
   // no structured binding: clang before version 16 captures none in a lambda
   BothKinds<Edge>& to = result_.edges;
   CircleExpert::Result& to_circles = result_.circles;
@@ -90,7 +90,7 @@ const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
     }
     add_rebels_before(edge.id);
     edge.rebel = true;
-    edge.origin = edge.location - field.dt_s() * edge.velocity();
+    edge.origin = edge.location - frame.field.dt_s() * edge.velocity();
     edge.depth_ratio_sigma = std::numeric_limits<double>::infinity();
     edge.trust = trust.of_log_odds(odds[i]);
     if (edge.corner >= 0) {
@@ -109,7 +109,7 @@ const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
       const std::span<const int> members = members_.of(c);
       const bool is_same = kind[c].rebel == of[members.front()].rebel &&
                            kind[c].members == static_cast<int>(members.size());
-      if (!is_same) kind[c] = mean_circle(of, members, field, kind[c]);
+      if (!is_same) kind[c] = mean_circle(of, members, frame.field, kind[c]);
     }
   };
   renew(to_circles.circles.normal, to.normal, to_circles.of_edges.normal);

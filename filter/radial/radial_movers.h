@@ -20,6 +20,20 @@
 
 namespace lcs {
 
+/// A frame in which radial movers are looked for.
+struct RadialFrame {
+  const BothKinds<Edge>& edges;
+  const CircleExpert::Result& circles;  ///< of all edges
+  std::span<const GroundEdge> seen;     ///< the normal edges
+  /// \name Of each corner, in the caller's order.
+  ///@{
+  std::span<const Eigen::Vector2f> corners_px;
+  std::span<const Reason> reasons;
+  ///@}
+  const MotionField& field;
+  const GroundView& ground;
+};
+
 /// Comers: bodies that approach along the line of sight. At constant speed their corners move as
 /// nearer static points do, and are normal edges. A comer's circle looks like a nearer body whose
 /// foot floats above the ground (filter/MODEL.md, "Comers").
@@ -38,13 +52,8 @@ class Comers {
     std::vector<GapSeen> gaps;  ///< all gaps that were looked at, with the answers
   };
 
-  /// \param edges,seen the normal edges. \param circles of all edges.
-  /// \param corners_px,reasons of the frame, in the caller's order.
   /// \return valid until the next call.
-  const Result& step(const std::vector<Edge>& edges, std::span<const GroundEdge> seen,
-                     const CircleExpert::Result& circles,
-                     std::span<const Eigen::Vector2f> corners_px, std::span<const Reason> reasons,
-                     const MotionField& field, const GroundView& ground, GapView& view);
+  const Result& step(const RadialFrame& frame, GapView& view);
 
   /// Drops all log odds.
   void forget() { beliefs_.clear(); }
@@ -57,12 +66,9 @@ class Comers {
   };
 
   void recall(const std::vector<Edge>& edges);
-  void believe(std::span<const GroundEdge> seen, const CircleExpert::Result& circles,
-               const MotionField& field, const GroundView& ground, GapView& view);
-  double evidence(Id circle, std::span<const int> members, std::span<const GroundEdge> seen,
-                  const MotionField& field, const GroundView& ground, GapView& view);
-  void inherit(const std::vector<Edge>& edges, std::span<const Eigen::Vector2f> corners_px,
-               std::span<const Reason> reasons);
+  void believe(const RadialFrame& frame, GapView& view);
+  double evidence(Id circle, std::span<const int> members, const RadialFrame& frame, GapView& view);
+  void inherit(const RadialFrame& frame);
 
   Intrinsics camera_;
   ComerParameters parameters_;
@@ -94,17 +100,14 @@ class Goers {
     std::vector<double> odds;  ///< for an edge that joins a circle: log odds that it recedes
   };
 
-  /// \param seen the normal edges. \return valid until the next call.
-  const Result& step(const BothKinds<Edge>& edges, std::span<const GroundEdge> seen,
-                     const CircleExpert::Result& circles, const MotionField& field,
-                     const GroundView& ground);
+  /// \return valid until the next call.
+  const Result& step(const RadialFrame& frame);
 
  private:
   /// A place on a body, in coordinates of the ground's view.
   using Place = Vec2;
 
-  void join(int circle, const std::vector<Edge>& rebels, const std::vector<int>& circle_of_rebel,
-            std::span<const GroundEdge> seen, const MotionField& field, const GroundView& ground);
+  void join(int circle, const RadialFrame& frame);
 
   Intrinsics camera_;
   CircleParameters circle_;
@@ -131,9 +134,8 @@ class Relabel {
   ///   edges of a normal circle agree, unless they join another circle.
   /// \param joined of each normal edge: the rebel circle that it joins, or -1.
   /// \return valid until the next call.
-  const Result& step(const BothKinds<Edge>& edges, const CircleExpert::Result& circles,
-                     std::span<const double> odds, std::span<const int> joined,
-                     const MotionField& field, const TrustRanks& trust);
+  const Result& step(const RadialFrame& frame, std::span<const double> odds,
+                     std::span<const int> joined, const TrustRanks& trust);
 
  private:
   Result result_;
