@@ -393,23 +393,25 @@ class FalseGroups {
 
 // ---- Squares
 
+/// Whether the square or object has more than `kMostOfIt` of its area in the other.
+bool is_mostly_in(const auto& one, const auto& other) {
+  const recording::Box box = recording::box_of(one);
+  return recording::common_px2(box, recording::box_of(other)) > kMostOfIt * box.volume();
+}
+
 /// The reason that an eligible object has no right square.
 EventKind cause_of(const recording::FrameRecord& frame, const std::set<int>& eligible,
                    const sim::ObjectTruth& object) {
-  const recording::Box own = recording::box_of(object);
   int pieces = 0;
   double best_iou = 0;
   bool is_merged = false;
   for (const Square& square : frame.layers.squares) {
-    const recording::Box box = recording::box_of(square);
-    const double common = recording::common_px2(own, box);
-    best_iou = std::max(best_iou, recording::intersection_over_union(own, box));
-    pieces += common > kMostOfIt * box.volume();
-    if (common <= kMostOfIt * own.volume()) continue;
+    best_iou = std::max(best_iou, iou_of(object, square));
+    pieces += is_mostly_in(square, object);
+    if (!is_mostly_in(object, square)) continue;
     is_merged |= std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& other) {
       return other.object != object.object && eligible.contains(other.object) &&
-             recording::common_px2(recording::box_of(other), box) >
-                 kMostOfIt * recording::box_of(other).volume();
+             is_mostly_in(other, square);
     });
   }
   return pieces > 1             ? EventKind::square_split
@@ -452,12 +454,9 @@ class SquareEvents {
       const bool found =
           std::ranges::find(outcomes.right, object.object, &BoxPair::box) != outcomes.right.end();
       // an object with a right square may have further, false ones
-      const bool is_doubled =
-          found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
-            return wrong.contains(square.id) &&
-                   recording::common_px2(recording::box_of(square), recording::box_of(object)) >
-                       kMostOfIt * recording::box_of(square).volume();
-          });
+      const bool is_doubled = found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
+                                return wrong.contains(square.id) && is_mostly_in(square, object);
+                              });
       Part part;
       part.box = moments.now->boxes.at(object.object);
       if (!found || is_doubled) {
@@ -469,10 +468,7 @@ class SquareEvents {
     }
     for (const Square& square : frame.layers.squares) {
       const bool touches = std::ranges::any_of(frame.object_truth, [&](const auto& object) {
-        return recording::intersection_over_union(recording::box_of(object),
-                                                  recording::box_of(square)) >= kLeastIou ||
-               recording::common_px2(recording::box_of(object), recording::box_of(square)) >
-                   kMostOfIt * recording::box_of(square).volume();
+        return iou_of(object, square) >= kLeastIou || is_mostly_in(square, object);
       });
       if (touches || !wrong.contains(square.id)) continue;
       Part part;

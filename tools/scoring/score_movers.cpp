@@ -27,8 +27,7 @@ Eigen::MatrixXd overlaps(const std::vector<const sim::ObjectTruth*>& truths,
   Eigen::MatrixXd overlap(truths.size(), squares.size());
   for (std::size_t i = 0; i < truths.size(); ++i) {
     for (std::size_t j = 0; j < squares.size(); ++j) {
-      overlap(i, j) = recording::intersection_over_union(recording::box_of(*truths[i]),
-                                                         recording::box_of(*squares[j]));
+      overlap(i, j) = iou_of(*truths[i], *squares[j]);
     }
   }
   return overlap;
@@ -53,16 +52,6 @@ std::optional<double> odds_of(const Square& square, const recording::FrameRecord
     if (box.contains(frame.corners_px[i].cast<double>())) odds.push_back(frame.log_odds[i]);
   }
   return mean(odds);
-}
-
-/// Sets the pixels of the region that lie in the picture.
-void paint(const Region& region, cv::Mat1b& picture) {
-  for (const Stretch& stretch : region.stretches) {
-    if (stretch.column < 0 || stretch.column >= picture.cols) continue;
-    const int top = std::clamp(stretch.top, 0, picture.rows);
-    const int bottom = std::clamp(stretch.bottom, top, picture.rows);
-    picture(cv::Range(top, bottom), cv::Range(stretch.column, stretch.column + 1)) = 255;
-  }
 }
 
 }  // namespace
@@ -151,10 +140,10 @@ void MoverScorer::rank(const recording::FrameRecord& frame,
 void MoverScorer::add_pixels(const recording::FrameRecord& frame) {
   cv::Mat1b truth(*picture_px_, 0), found(*picture_px_, 0);
   for (const sim::ObjectTruth& object : frame.object_truth) {
-    if (object.moving) paint(region_of(sim::mask_of(object)), truth);
+    if (object.moving) paint(sim::mask_of(object), truth);
   }
   if (cv::countNonZero(truth) == 0) return;
-  for (const Square* square : moving_squares(frame)) paint(region_of(*square, frame.masks), found);
+  for (const Square* square : moving_squares(frame)) paint(*square, frame.masks, found);
   const int common = cv::countNonZero(truth & found), all = cv::countNonZero(truth | found);
   sums_.common_px += common;
   sums_.all_px += all;

@@ -13,19 +13,16 @@ namespace lcs::scoring {
 namespace {
 
 constexpr double kRim_px = 1e-6;
-constexpr double kFarthest_px = 1 << 15;  // twice a picture's longest side
 
-int first_pixel(double x) {
-  return static_cast<int>(std::ceil(std::clamp(x, -kFarthest_px, kFarthest_px) - kRim_px));
-}
-int last_pixel(double x) {
-  return static_cast<int>(std::floor(std::clamp(x, -kFarthest_px, kFarthest_px) + kRim_px));
+/// Pixels whose centres lie in [from, to] or within `kRim_px` of it, of `size`.
+cv::Range pixels(double from, double to, int size) {
+  const int first = static_cast<int>(std::ceil(std::clamp<double>(from, 0, size) - kRim_px));
+  const int last = static_cast<int>(std::floor(std::clamp<double>(to, -1, size - 1) + kRim_px));
+  return {first, std::max(first, last + 1)};
 }
 
-void add(Region& region, const Stretch& stretch) {
-  if (stretch.bottom <= stretch.top) return;
-  region.stretches.push_back(stretch);
-  region.pixels += stretch.bottom - stretch.top;
+void paint_column(int column, const cv::Range& rows, cv::Mat1b& picture) {
+  picture(rows, cv::Range(column, column + 1)) = 255;
 }
 
 /// \name Conditions for an eligible truth box, which a square should find.
@@ -49,8 +46,7 @@ FrameSquares compare_boxes(const recording::FrameRecord& frame) {
   for (const Square& square : frame.layers.squares) {
     BoxPair best{0, 0, square.id};
     for (const sim::ObjectTruth& truth : frame.object_truth) {
-      const double iou =
-          recording::intersection_over_union(recording::box_of(truth), recording::box_of(square));
+      const double iou = iou_of(truth, square);
       const bool eligible = result.eligible.contains(truth.object);
       if (iou > 0 && eligible) candidates.push_back({iou, truth.object, square.id});
       if (iou > best.iou || (iou == best.iou && iou > 0 && eligible)) {
@@ -102,24 +98,23 @@ std::set<int> eligible_objects(const recording::FrameRecord& frame) {
   return objects;
 }
 
-Region region_of(const sim::Mask& mask) {
-  Region region;
+void paint(const sim::Mask& mask, cv::Mat1b& picture) {
   sim::visit_stretches(mask, [&](int column, int top, int bottom) {
-    add(region, {column, top, bottom});
+    if (column < 0 || column >= picture.cols) return;
+    paint_column(column, pixels(top, bottom - 1, picture.rows), picture);
   });
-  return region;
 }
 
-Region region_of(const Outline& outline) {
+void paint(const Outline& outline, cv::Mat1b& picture) {
   const std::span<const Vec2> polygon = outline.vertices();
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const Vec2& point : polygon) {
     left = std::min(left, point.x());
     right = std::max(right, point.x());
   }
-  Region region;
-  if (polygon.empty()) return region;
-  for (int column = first_pixel(left); column <= last_pixel(right); ++column) {
+  if (polygon.empty()) return;
+  const cv::Range columns = pixels(left, right, picture.cols);
+  for (int column = columns.start; column < columns.end; ++column) {
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -136,23 +131,23 @@ Region region_of(const Outline& outline) {
         bottom = std::max(bottom, y);
       }
     }
-    add(region, {column, first_pixel(top), last_pixel(bottom) + 1});
+    paint_column(column, pixels(top, bottom, picture.rows), picture);
   }
-  return region;
 }
 
-Region region_of(const recording::Box& box) {
-  Region region;
-  for (int column = first_pixel(box.min().x()); column <= last_pixel(box.max().x()); ++column) {
-    add(region, {column, first_pixel(box.min().y()), last_pixel(box.max().y()) + 1});
-  }
-  return region;
+void paint(const recording::Box& box, cv::Mat1b& picture) {
+  picture(pixels(box.min().y(), box.max().y(), picture.rows),
+          pixels(box.min().x(), box.max().x(), picture.cols)) = 255;
 }
 
-Region region_of(const Square& square, const recording::SquareMasks& masks) {
-  if (const auto mask = masks.find(square.id); mask != masks.end()) return region_of(mask->second);
-  return square.outline.count > 0 ? region_of(square.outline)
-                                  : region_of(recording::box_of(square));
+void paint(const Square& square, const recording::SquareMasks& masks, cv::Mat1b& picture) {
+  if (const auto mask = masks.find(square.id); mask != masks.end()) {
+    paint(mask->second, picture);
+  } else if (square.outline.count > 0) {
+    paint(square.outline, picture);
+  } else {
+    paint(recording::box_of(square), picture);
+  }
 }
 
 SquareOutcomes square_outcomes(const recording::FrameRecord& frame) {

@@ -25,6 +25,11 @@ struct SquareCounts {
   std::optional<double> precision() const { return ratio(matched, squares); }
 };
 
+/// Intersection over union of the boxes of objects, labels or squares.
+double iou_of(const auto& a, const auto& b) {
+  return recording::intersection_over_union(recording::box_of(a), recording::box_of(b));
+}
+
 /// A box and a square that overlap.
 struct BoxPair {
   double iou = 0;
@@ -80,27 +85,15 @@ class SquareScorer {
   std::vector<Pair> pairs_;        ///< at `kRightIou`
 };
 
-/// Pixels of one column, [top, bottom).
-struct Stretch {
-  int column = 0, top = 0, bottom = 0;
-};
-
-/// A set of pixels. The stretches are ordered by column, then by row, and do not touch.
-struct Region {
-  std::vector<Stretch> stretches;
-  std::int64_t pixels = 0;
-};
-
-Region region_of(const sim::Mask& mask);
-
-/// The pixels whose centre lies inside or within 1e-6 px of the rim. A polygon that is not convex
-/// covers each column from its highest to its lowest point. Pixels beyond 2^15 are left out.
+/// \name Sets the pixels of a region that lie in the picture.
 ///@{
-Region region_of(const Outline& outline);
-Region region_of(const recording::Box& box);
+void paint(const sim::Mask& mask, cv::Mat1b& picture);
+/// The pixels whose centre lies inside or within 1e-6 px of the rim. A polygon that is not convex
+/// covers each column from its highest to its lowest point.
+void paint(const Outline& outline, cv::Mat1b& picture);
+void paint(const recording::Box& box, cv::Mat1b& picture);  ///< likewise
+/// The mask of a square, otherwise its outline, otherwise its box.
+void paint(const Square& square, const recording::SquareMasks& masks, cv::Mat1b& picture);
 ///@}
-
-/// The region of a square: its mask, otherwise its outline, otherwise its box.
-Region region_of(const Square& square, const recording::SquareMasks& masks);
 
 }  // namespace lcs::scoring
