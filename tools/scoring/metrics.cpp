@@ -203,9 +203,8 @@ std::vector<Metric> mover_metrics() {
   return {
       {"mover.hota", [](auto& s) { return track(s, &TrackMeasures::hota); }, kShare, "HOTA",
        "HOTA of the moving squares (Luiten et al. 2021). Boxes are the eligible ones of objects "
-       "that "
-       "move in the frame; squares on other boxes of movers are left out, as MOTChallenge leaves "
-       "out those on distractors",
+       "that move in the frame; squares on other boxes of movers are left out, as MOTChallenge "
+       "leaves out those on distractors",
        kInMeasures},
       {"mover.hota_detection", [](auto& s) { return track(s, &TrackMeasures::detection); }, kShare,
        "", "DetA of mover.hota"},
@@ -233,8 +232,7 @@ std::vector<Metric> mover_metrics() {
        kInMeasures},
       {"mover.region_j", [](auto& s) { return mean(s.movers.region_j); }, kShare, "",
        "J: IoU of the moving pixels with those of the moving squares' masks, outlines or boxes. "
-       "Mean "
-       "over frames with moving pixels (Perazzi et al. 2016)"},
+       "Mean over frames with moving pixels (Perazzi et al. 2016)"},
       {"mover.boundary_f", [](auto& s) { return mean(s.movers.boundary_f); }, kShare, "",
        "F of the boundaries of the same pixels, within .008 of the picture's diagonal. Mean "
        "likewise"},
@@ -253,10 +251,8 @@ std::vector<Metric> mover_metrics() {
       {"mover.latency_ms_median", [](auto& s) { return median(s.movers.latencies_ms); },
        lower("ms", 20, 0), "box latency",
        "time from the first frame in which a corner of an object moves by 1 px until a moving "
-       "square "
-       "has an IoU of 0.5 with it. Median over the objects boxed, of movers with rebel corners in "
-       "at "
-       "least N frames",
+       "square has an IoU of 0.5 with it. Median over the objects boxed, of movers with rebel "
+       "corners in at least N frames",
        kInMeasures},
       {"mover.false_per_minute",
        [](auto& s) { return ratio(60.0 * s.movers.false_tracks, s.movers.still_s); },

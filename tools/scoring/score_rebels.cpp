@@ -50,13 +50,14 @@ std::map<int, int> rebels_by_object(const recording::FrameRecord& frame) {
   return rebels;
 }
 
-RebelCornerScore score_of(const recording::FrameRecord& frame,
-                          const std::vector<CornerOutcome>& outcomes) {
-  RebelCornerScore score;
+/// Adds the corners of a frame. \return their counts.
+RebelCounts add_to(RebelCornerScore& score, const recording::FrameRecord& frame,
+                   const std::vector<CornerOutcome>& outcomes) {
+  RebelCounts of_frame;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const sim::CornerTruth& truth = frame.corner_truth[i];
     const RebelCounts of_corner = counts(outcomes[i]);
-    score.overall += of_corner;
+    of_frame += of_corner;
     const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
     (is_radial ? score.radial : score.distinct) += of_corner;
     if (!truth.outline) score.clear += of_corner;
@@ -67,20 +68,11 @@ RebelCornerScore score_of(const recording::FrameRecord& frame,
     score.fixed_corners +=
         outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
   }
-  return score;
+  score.overall += of_frame;
+  return of_frame;
 }
 
 }  // namespace
-
-RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
-  overall += other.overall;
-  distinct += other.distinct;
-  clear += other.clear;
-  radial += other.radial;
-  fixed_corners += other.fixed_corners;
-  for (std::size_t d = 0; d < without.size(); ++d) without[d] += other.without[d];
-  return *this;
-}
 
 std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
                                            const ObjectDetections& detections) {
@@ -97,7 +89,7 @@ std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
   return outcomes;
 }
 
-std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame) {
+FrameScore RebelScorer::add(const recording::FrameRecord& frame) {
   std::set<int> distinct;
   for (const sim::CornerTruth& truth : frame.corner_truth) {
     if (truth.label == sim::Label::rebel) distinct.insert(truth.object);
@@ -118,10 +110,9 @@ std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame)
     found->second.latency_ms =
         1e-6 * static_cast<double>(frame.t_ns - found->second.first_distinct_ns);
   }
-  std::vector<CornerOutcome> outcomes = corner_outcomes(frame, detections_);
-  last_ = score_of(frame, outcomes);
-  corners_ += last_;
-  if (frame.index < recording::kSightings) return outcomes;
+  FrameScore score{corner_outcomes(frame, detections_), {}};
+  score.rebels = add_to(corners_, frame, score.outcomes);
+  if (frame.index < recording::kSightings) return score;
 
   ++circles_.frames;
   circles_.false_circles += static_cast<int>(false_circles(frame).size());
@@ -133,7 +124,7 @@ std::vector<CornerOutcome> RebelScorer::add(const recording::FrameRecord& frame)
       return recording::box_of(truth).contains(circle.location);
     });
   }
-  return outcomes;
+  return score;
 }
 
 RebelObjectScore RebelScorer::objects() const {

@@ -51,8 +51,6 @@ struct RebelCornerScore {
   int fixed_corners = 0;  ///< after the warm-up
   /// `overall` as if all verdicts on corners of one `Difficulty` were right.
   std::array<RebelCounts, 4> without;
-
-  RebelCornerScore& operator+=(const RebelCornerScore& other);
 };
 
 struct RebelObjectScore {
@@ -73,17 +71,14 @@ std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
 /// Scores a run frame by frame, in order.
 class RebelScorer {
  public:
-  /// \return the outcome of each corner.
-  std::vector<CornerOutcome> add(const recording::FrameRecord& frame);
+  FrameScore add(const recording::FrameRecord& frame);
 
-  /// The counts of the last frame; all 0 during the warm-up.
-  const RebelCornerScore& last() const { return last_; }
   const RebelCornerScore& corners() const { return corners_; }
   const ObjectDetections& detections() const { return detections_; }
   RebelObjectScore objects() const;
 
  private:
-  RebelCornerScore last_, corners_;  ///< of the last frame, of all
+  RebelCornerScore corners_;
   ObjectDetections detections_;
   RebelObjectScore circles_;  ///< without the fields that `detections_` determine
 };

@@ -77,7 +77,7 @@ void Scorer::State::add_edges(const recording::FrameRecord& frame) {
 
 FrameScore Scorer::add(const recording::FrameRecord& frame) {
   require_pairs(frame);
-  FrameScore score{state_->rebels.add(frame), state_->rebels.last().overall};
+  FrameScore score = state_->rebels.add(frame);
   state_->squares.add(frame);
   state_->movers.add(frame, score.outcomes, state_->rebels.detections());
   state_->warnings.add(frame);
