@@ -48,27 +48,20 @@ Cut cut_out(const scoring::EventView& view, const cv::Size& kept, double scale) 
           scale};
 }
 
-/// Missed: a ring. Found: a dot. False: a cross.
+/// Missed: a ring. Found, also early: a dot. False: a cross.
 void mark(cv::Mat3b& picture, cv::Point at, scoring::CornerOutcome outcome) {
   constexpr int kReach = 3;
   const auto cross = [&](const cv::Scalar& colour, int width) {
     cv::drawMarker(picture, at, colour, cv::MARKER_TILTED_CROSS, 2 * kReach, width, cv::LINE_AA);
   };
-  switch (outcome) {
-    case scoring::CornerOutcome::missed:
-      cv::circle(picture, at, kReach, kMissed, 1, cv::LINE_AA);
-      return;
-    case scoring::CornerOutcome::found:
-    case scoring::CornerOutcome::found_early:
-      cv::circle(picture, at, kReach, kShadow, cv::FILLED, cv::LINE_AA);
-      cv::circle(picture, at, kReach - 1, kFound, cv::FILLED, cv::LINE_AA);
-      return;
-    case scoring::CornerOutcome::false_rebel:
-      cross(kShadow, 3);
-      cross(kFalse, 1);
-      return;
-    default:
-      return;
+  if (outcome == scoring::CornerOutcome::missed) {
+    cv::circle(picture, at, kReach, kMissed, 1, cv::LINE_AA);
+  } else if (outcome == scoring::CornerOutcome::false_rebel) {
+    cross(kShadow, 3);
+    cross(kFalse, 1);
+  } else {
+    cv::circle(picture, at, kReach, kShadow, cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, at, kReach - 1, kFound, cv::FILLED, cv::LINE_AA);
   }
 }
 

@@ -191,21 +191,15 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
   int x = kGap;
   for (const Word& word : words) {
     const cv::Point middle(x + kSample / 2, band.rows / 2);
-    switch (word.sample) {
-      case Sample::fill:
-      case Sample::line:
-        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour,
-                      word.sample == Sample::fill ? cv::FILLED : 1);
-        break;
-      case Sample::ring:
-        cv::circle(band, middle, 4, word.colour, 2, cv::LINE_AA);
-        break;
-      case Sample::cross:
-        cv::drawMarker(band, middle, word.colour, cv::MARKER_TILTED_CROSS, 8, 2, cv::LINE_AA);
-        break;
-      case Sample::diamond:
-        cv::drawMarker(band, middle, word.colour, cv::MARKER_DIAMOND, 10, 1, cv::LINE_AA);
-        break;
+    if (word.sample == Sample::ring) {
+      cv::circle(band, middle, 4, word.colour, 2, cv::LINE_AA);
+    } else if (word.sample == Sample::cross) {
+      cv::drawMarker(band, middle, word.colour, cv::MARKER_TILTED_CROSS, 8, 2, cv::LINE_AA);
+    } else if (word.sample == Sample::diamond) {
+      cv::drawMarker(band, middle, word.colour, cv::MARKER_DIAMOND, 10, 1, cv::LINE_AA);
+    } else {
+      cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour,
+                    word.sample == Sample::fill ? cv::FILLED : 1);
     }
     x += kSample + kGap;
     write(band, word.text, x, size);
