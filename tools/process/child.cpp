@@ -74,25 +74,18 @@ class Starter {
   }
 
   pid_t start(const Start& start) {
+    const std::lock_guard one_at_a_time(asking_);
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return state_ == State::free; });
     start_ = &start;
-    state_ = State::asked;
     changed_.notify_all();
-    changed_.wait(lock, [&] { return state_ == State::done; });
-    const pid_t child = child_;
-    const int error = error_;
-    state_ = State::free;
-    changed_.notify_all();
-    if (child < 0) {
-      throw std::system_error(error, std::generic_category(), "no process can be started (fork)");
+    changed_.wait(lock, [&] { return !start_; });
+    if (child_ < 0) {
+      throw std::system_error(error_, std::generic_category(), "no process can be started (fork)");
     }
-    return child;
+    return child_;
   }
 
  private:
-  enum class State { free, asked, done };
-
   Starter() {
     // Signals are for the other threads.
     sigset_t all, before;
@@ -110,20 +103,19 @@ class Starter {
   [[noreturn]] void serve() {
     std::unique_lock lock(mutex_);
     while (true) {
-      changed_.wait(lock, [&] { return state_ == State::asked; });
+      changed_.wait(lock, [&] { return start_; });
       child_ = ::fork();
       if (child_ == 0) become(*start_, process_);
       error_ = errno;
-      state_ = State::done;
+      start_ = nullptr;
       changed_.notify_all();
     }
   }
 
   const pid_t process_ = ::getpid();
-  std::mutex mutex_;
+  std::mutex asking_, mutex_;
   std::condition_variable changed_;
-  State state_ = State::free;
-  const Start* start_ = nullptr;
+  const Start* start_ = nullptr;  ///< null once it is done
   pid_t child_ = -1;
   int error_ = 0;
 };
