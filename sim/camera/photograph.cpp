@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sim/camera/linear_light.h"
-#include "sim/camera/point_spread.h"
 #include "sim/pictures/picture_file.h"
 
 namespace lcs::sim {
@@ -26,6 +25,24 @@ cv::Mat3f falloff_of(double loss, const Lens& lens) {
   return falloff;
 }
 
+/// An index of 16 bits. A frame needs a million normals, and 64 random bits give four indices.
+constexpr std::size_t kNormals = 1 << 16;
+
+/// Standard normal samples, shifted and scaled to mean 0 and variance 1 up to rounding.
+std::vector<float> draw_normals(std::uint64_t seed) {
+  RandomStream random(seed, "image.normals");
+  std::vector<double> drawn(kNormals);
+  double sum = 0;
+  for (double& x : drawn) sum += x = random.normal();
+  const double mean = sum / kNormals;
+  double squares = 0;
+  for (const double x : drawn) squares += (x - mean) * (x - mean);
+  const double deviation = std::sqrt(squares / kNormals);
+  std::vector<float> normals;
+  for (const double x : drawn) normals.push_back(static_cast<float>((x - mean) / deviation));
+  return normals;
+}
+
 }  // namespace
 
 Photographer::Photographer(const scenario::Image& image, const Optics& camera, double rate_hz,
@@ -34,8 +51,10 @@ Photographer::Photographer(const scenario::Image& image, const Optics& camera, d
       jpeg_quality_(image.jpeg_quality),
       rate_hz_(rate_hz),
       illumination_(image, camera),
-      sensor_(image, scenario_seed),
+      noise_(image.noise),
+      seed_(scenario_seed),
       control_(image, 1 / rate_hz) {
+  if (noise_) normals_ = draw_normals(scenario_seed);
   if (image.vignetting > 0) falloff_ = falloff_of(image.vignetting, camera.lens());
   if (image.rain) rain_.emplace(*image.rain, camera.lens().pinhole(), scenario_seed);
 }
@@ -64,41 +83,14 @@ Exposure Photographer::develop(cv::Mat3f light, const cv::Mat1f& depth_m, int k,
     rain_->look_through_drops(light, k / rate_hz_);
   }
   pass_lens(light);
-  sensor_.expose(light, exposure, k);
+  expose(light, exposure, k);
   control_.see(light);
   to_codes(light, picture);
   if (jpeg_quality_) decode_jpeg(encode_jpeg(picture, *jpeg_quality_)).copyTo(picture);
   return exposure;
 }
 
-namespace {
-
-/// An index of 16 bits. A frame needs a million normals, and 64 random bits give four indices.
-constexpr std::size_t kNormals = 1 << 16;
-
-/// Standard normal samples, shifted and scaled to mean 0 and variance 1 up to rounding.
-std::vector<float> draw_normals(std::uint64_t seed) {
-  RandomStream random(seed, "image.normals");
-  std::vector<double> drawn(kNormals);
-  double sum = 0;
-  for (double& x : drawn) sum += x = random.normal();
-  const double mean = sum / kNormals;
-  double squares = 0;
-  for (const double x : drawn) squares += (x - mean) * (x - mean);
-  const double deviation = std::sqrt(squares / kNormals);
-  std::vector<float> normals;
-  for (const double x : drawn) normals.push_back(static_cast<float>((x - mean) / deviation));
-  return normals;
-}
-
-}  // namespace
-
-ImageSensor::ImageSensor(const scenario::Image& image, std::uint64_t scenario_seed)
-    : noise_(image.noise), seed_(scenario_seed) {
-  if (image.noise) normals_ = draw_normals(scenario_seed);
-}
-
-void ImageSensor::expose(cv::Mat3f& picture, const Exposure& exposure, int k) const {
+void Photographer::expose(cv::Mat3f& picture, const Exposure& exposure, int k) const {
   const auto light = static_cast<float>(exposure.time_s / scenario::Image::kDaylightExposure_s);
   const auto gain = static_cast<float>(exposure.gain);
   picture *= light;
@@ -107,7 +99,7 @@ void ImageSensor::expose(cv::Mat3f& picture, const Exposure& exposure, int k) co
   picture *= gain;
 }
 
-void ImageSensor::add_noise(cv::Mat3f& picture, int k) const {
+void Photographer::add_noise(cv::Mat3f& picture, int k) const {
   RandomStream random(seed_, "image.noise." + std::to_string(k));
   const auto full_well = static_cast<float>(noise_->full_well_e);
   const auto read_variance =

@@ -74,26 +74,10 @@ class Rain {
   double places_s_ = 0;  ///< time of the state in `places_`
 };
 
-/// A camera's sensor: exposure, shot noise, read noise, gain.
-///
-/// A white surface in daylight fills a pixel in 1 ms. At linear light L and exposure t a pixel
-/// collects n = full_well L t / 1 ms electrons and reads n + sqrt(n + read^2) N(0, 1), at most
-/// full_well: photon counts have a variance equal to their mean. The gain multiplies signal and
-/// noise. Each colour channel of each pixel has its own noise.
-class ImageSensor {
- public:
-  ImageSensor(const scenario::Image& image, std::uint64_t scenario_seed);
-
-  /// Exposes the image of frame `k` in place, in linear light; the result is not yet clipped at 1.
-  void expose(cv::Mat3f& picture, const Exposure& exposure, int k) const;
-
- private:
-  void add_noise(cv::Mat3f& picture, int k) const;
-
-  std::optional<scenario::Image::Noise> noise_;
-  std::uint64_t seed_;
-  std::vector<float> normals_;  ///< standard normal samples, drawn once; each pixel picks at random
-};
+/// Spreads linear light by the lens: the light of a point becomes a Gaussian. Even light stays
+/// even; at the border the outermost pixels continue. The same bits on any machine.
+/// \param sigma_px standard deviation along each axis; 0: nothing changes.
+void spread_points(cv::Mat3f& light, double sigma_px);
 
 class Photographer {
  public:
@@ -117,13 +101,25 @@ class Photographer {
   static constexpr float kReflectance = 1e-3F;
   void pass_lens(cv::Mat3f& light) const;
 
+  /// The sensor: exposure, shot noise, read noise, gain. Exposes the image of frame `k` in place,
+  /// in linear light; the result is not yet clipped at 1.
+  ///
+  /// A white surface in daylight fills a pixel in 1 ms. At linear light L and exposure t a pixel
+  /// collects n = full_well L t / 1 ms electrons and reads n + sqrt(n + read^2) N(0, 1), at most
+  /// full_well: photon counts have a variance equal to their mean. The gain multiplies signal and
+  /// noise. Each colour channel of each pixel has its own noise.
+  void expose(cv::Mat3f& picture, const Exposure& exposure, int k) const;
+  void add_noise(cv::Mat3f& picture, int k) const;
+
   double spread_px_;  ///< standard deviation of the whole point spread
   std::optional<int> jpeg_quality_;
   double rate_hz_;
   Illumination illumination_;
   std::optional<Rain> rain_;
   cv::Mat3f falloff_;  ///< of the lens's light; empty: none
-  ImageSensor sensor_;
+  std::optional<scenario::Image::Noise> noise_;
+  std::uint64_t seed_;
+  std::vector<float> normals_;  ///< standard normal samples, drawn once; each pixel picks at random
   ExposureControl control_;
 };
 

@@ -1,4 +1,4 @@
-#include "sim/camera/point_spread.h"
+#include "sim/camera/photograph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/camera/linear_light.h"
-#include "sim/camera/point_spread.h"
+#include "sim/camera/photograph.h"
 #include "sim/world/world.h"
 #include "tests/tools/temporary_folder.h"
 
