@@ -9,11 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
+#include "sim/base/trial.h"
 #include "sim/camera/gl_context.h"
 #include "sim/camera/round_cylinders.h"
-#include "sim/base/trial.h"
 
 namespace lcs::sim {
 namespace {
@@ -101,7 +100,7 @@ struct CameraRenderer::Impl {
   std::array<mjvGLCamera, 2> eyes;  ///< of the model's camera, after an update
   cv::Mat4w codes;
   cv::Mat4w ids;
-  std::vector<float> z;
+  cv::Mat1f z;
 
   Impl(Model& model_, int camera, const View& colour_, const View& truth_, const GeomGroups& groups,
        bool has_shadows)
@@ -154,7 +153,7 @@ struct CameraRenderer::Impl {
     const Pinhole& p = truth.pinhole;
     codes.create(colour.pinhole.height_px, colour.pinhole.width_px);
     ids.create(p.height_px, p.width_px);
-    z.resize(std::size_t(p.width_px) * std::size_t(p.height_px));
+    z.create(p.height_px, p.width_px);
   }
 
   /// Gives MuJoCo's colour buffer 16 bits: in the dark, a step of 8 bits is more light than an
@@ -239,11 +238,6 @@ struct CameraRenderer::Impl {
         part.left, part.bottom, part.width, part.height, kRgba, kUnsignedShort, to.data);
   }
 
-  // Read-back is bottom row first.
-  std::size_t row(int y) const {
-    return std::size_t(truth.pinhole.height_px - 1 - y) * std::size_t(truth.pinhole.width_px);
-  }
-
   /// \param id_colour by `mjRND_IDCOLOR`: index in the scene, from 1.
   int geom_of(int id_colour) const {
     const int index = id_colour - 1;
@@ -285,7 +279,7 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
   s.scene.flags[mjRND_SEGMENT] = 1;
   s.scene.flags[mjRND_IDCOLOR] = 1;
   const mjrRect part = s.render(s.truth);
-  call_mujoco([&] { mjr_readPixels(nullptr, s.z.data(), part, &s.context); });
+  call_mujoco([&] { mjr_readPixels(nullptr, s.z[0], part, &s.context); });
   s.read(part, s.ids);
   s.scene.flags[mjRND_SEGMENT] = 0;
   s.scene.flags[mjRND_IDCOLOR] = 0;
@@ -295,8 +289,9 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
   const float n = s.scene.camera[0].frustum_near;
   const float f = s.scene.camera[0].frustum_far;
   for (int y = 0; y < part.height; ++y) {
-    const cv::Vec4w* id = s.ids[part.height - 1 - y];
-    const float* z = s.z.data() + s.row(y);
+    const int read = part.height - 1 - y;  // read-back is bottom row first
+    const cv::Vec4w* id = s.ids[read];
+    const float* z = s.z[read];
     float* depth = depth_m[y];
     int* to = geom[y];
     // neighbouring pixels mostly show the same geom

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "sim/camera/linear_light.h"
-#include "sim/camera/shadows.h"
 #include "sim/truth/truth.h"
 
 namespace lcs::sim {

@@ -1,4 +1,4 @@
-#include "sim/camera/shadows.h"
+#include "sim/camera/lens_renderer.h"
 
 #include <algorithm>
 #include <cmath>
