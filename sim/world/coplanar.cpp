@@ -1,4 +1,4 @@
-#include "sim/world/coplanar.h"
+#include "sim/world/watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -65,19 +65,13 @@ bool is_floor(const Model& model, int geom) {
   return type == mjGEOM_HFIELD || (type == mjGEOM_PLANE && model.geom_pose(geom).R(2, 2) > kSteep);
 }
 
-Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
+Watch::Watch(const Model& model, int rover_body, std::vector<Solid> objects,
              const std::vector<int>& object_of_geom, const std::vector<char>& is_drawn)
     : last_T_WB_(model.body_pose(rover_body)) {
   const mjModel& m = model.m();
-  std::vector<Solid> named(objects.size() + 1);
-  named[0] = {.kind = Kind::rover, .name = "the rover", .body = rover_body, .moves = true};
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    named[i + 1] = {
-        .kind = objects[i].is_actor ? Kind::actor : Kind::object,
-        .name = fmt::format("{} '{}'", objects[i].is_actor ? "actor" : "object", objects[i].name),
-        .body = objects[i].body,
-        .moves = objects[i].is_actor || m.body_dofnum[objects[i].body] > 0};
-  }
+  objects.insert(
+      objects.begin(),
+      Solid{.kind = Kind::rover, .name = "the rover", .body = rover_body, .moves = true});
   std::vector<Solid> setting;
   lowest_m_ = std::numeric_limits<double>::infinity();
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -94,14 +88,14 @@ Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objec
       setting.push_back(
           {.name = name_of(model, geom), .body = m.geom_bodyid[geom], .geoms = {geom}});
     } else {
-      named[static_cast<std::size_t>(std::max(object, 0))].geoms.push_back(geom);
+      objects[static_cast<std::size_t>(std::max(object, 0))].geoms.push_back(geom);
     }
   }
   if (!std::isfinite(lowest_m_)) lowest_m_ = -lowest_m_;  // no setting to fall below
   solid_of_geom_.assign(static_cast<std::size_t>(m.ngeom), -1);
-  for (Solid& solid : named) add_solid(model, std::move(solid));
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].size_m) check_size(model, solids_[i + 1], *objects[i].size_m);
+  for (Solid& solid : objects) add_solid(model, std::move(solid));
+  for (const Solid& solid : solids_) {
+    if (solid.size_m) check_size(model, solid, *solid.size_m);
   }
   for (Solid& solid : setting) add_solid(model, std::move(solid));
   start_m_ = model.body_pose(rover_body).p.z();
@@ -288,14 +282,13 @@ void Watch::note_falls(const Model& model, std::int64_t t_ns) {
 /// Compares the extents of a body's visible geoms, along the body's axes, with its stated size.
 void Watch::check_size(const Model& model, const Solid& solid, const Vector3d& stated_m) {
   const Pose T_BW = model.body_pose(solid.body).inverse();
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Eigen::AlignedBox3d box;
   for (const int geom : solid.geoms) {
     const Pose T_BG = T_BW * model.geom_pose(geom);
     const Eigen::Matrix3Xd points = (T_BG.R * overlap_.hull(model, geom)).colwise() + T_BG.p;
-    low = low.cwiseMin(points.rowwise().minCoeff());
-    high = high.cwiseMax(points.rowwise().maxCoeff());
+    box.extend(points.rowwise().minCoeff()).extend(points.rowwise().maxCoeff());
   }
-  const Vector3d size_m = high - low;
+  const Vector3d size_m = box.sizes();
   const Vector3d ratio = size_m.cwiseQuotient(stated_m);
   if (solid.geoms.empty() ||
       ((ratio.array() < kMostSize).all() && (ratio.array() * kMostSize > 1).all()))

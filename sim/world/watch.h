@@ -24,21 +24,39 @@ namespace lcs::sim {
 /// A plane that faces up, or a height field.
 bool is_floor(const Model& model, int geom);
 
+/// The pairs of geoms of which a part of the surfaces, as faces of a wall and of a door in it, is
+/// in one place, to 0.1 mm, as a camera at `eye` sees: a picture shows now one and now the other,
+/// so that labels and textures change from frame to frame. It is found by rays onto the six sides
+/// of each geom; a common part below a quarter of a side of both is passed over.
+/// \param is_drawn of each geom; others have no surface.
+std::vector<std::pair<int, int>> coplanar_geoms(const Model& model,
+                                                const std::vector<char>& is_drawn,
+                                                const Eigen::Vector3d& eye);
+
 class Watch {
  public:
   enum class Kind { rover, actor, object, setting };
 
-  /// An object of the world.
-  struct Named {
+  /// A unit of the overlap check: the rover, an object, or a geom of the setting.
+  struct Solid {
+    Kind kind = Kind::setting;
     std::string name;
     int body = 0;
-    bool is_actor = false;
     std::optional<Eigen::Vector3d> size_m = {};  ///< that its file or the scenario states
+    bool moves = false;                          ///< as an actor or by the physics
+    /// \name Filled in by the constructor.
+    ///@{
+    std::vector<int> geoms = {};  ///< visible geoms
+    Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();
+    double radius_m = 0;  ///< of a bounding sphere around `centre_B`
+    double foot_m = 0;    ///< actors: lowest point at the start, over the body's origin
+    bool is_low = false;  ///< in or below the ground, with a warning given
+    ///@}
   };
 
   /// \param object_of_geom as `World::object_of_geom`; `objects[i]` is object i + 1.
   /// \param is_drawn of each geom: whether the camera can see it.
-  Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
+  Watch(const Model& model, int rover_body, std::vector<Solid> objects,
         const std::vector<int>& object_of_geom, const std::vector<char>& is_drawn);
 
   /// An overlap of two solids.
@@ -65,18 +83,6 @@ class Watch {
   const Warnings& warnings() const { return warnings_; }
 
  private:
-  /// A unit of the overlap check: the rover, an object, or a geom of the setting.
-  struct Solid {
-    Kind kind = Kind::setting;
-    std::string name;
-    int body = 0;
-    std::vector<int> geoms = {};  ///< visible geoms
-    Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();
-    double radius_m = 0;  ///< of a bounding sphere around `centre_B`
-    double foot_m = 0;    ///< actors: lowest point at the start, over the body's origin
-    bool moves = false;   ///< as an actor or by the physics
-    bool is_low = false;  ///< in or below the ground, with a warning given
-  };
   /// The path of the rover over a second: as commanded, and as driven, in B.
   struct Drive {
     std::int64_t from_ns = 0;

@@ -23,7 +23,6 @@
 #include "sim/scene/ground.h"
 #include "sim/scene/limits.h"
 #include "sim/scene/texture.h"
-#include "sim/world/coplanar.h"
 
 namespace lcs::sim {
 namespace {
@@ -424,14 +423,18 @@ void World::begin_watch(WrongStart wrong_start) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
     return std::ranges::find(bodies, name) - bodies.begin();
   };
-  std::vector<Watch::Named> named;
+  std::vector<Watch::Solid> named;
   for (const Object& object : objects_) {
     const auto actor = actor_of(object.id);
     const bool is_actor = actor < std::ssize(bodies);
-    named.push_back({object.name, body_of(object.id), is_actor, {}});
-    if (is_actor) named.back().size_m = composed_.actor_sizes_m[static_cast<std::size_t>(actor)];
+    Watch::Solid& solid = named.emplace_back();
+    solid.kind = is_actor ? Watch::Kind::actor : Watch::Kind::object;
+    solid.name = fmt::format("{} '{}'", is_actor ? "actor" : "object", object.name);
+    solid.body = body_of(object.id);
+    solid.moves = is_actor || model_.m().body_dofnum[solid.body] > 0;
+    if (is_actor) solid.size_m = composed_.actor_sizes_m[static_cast<std::size_t>(actor)];
   }
-  watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_, is_drawn_);
+  watch_ = std::make_unique<Watch>(model_, base_, std::move(named), object_of_geom_, is_drawn_);
   note_load();
   note_looks(drawables);
   note_coplanar();
