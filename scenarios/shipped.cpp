@@ -1,8 +1,12 @@
 #include "scenarios/shipped.h"
 
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#include "scenarios/input/spelling.h"
 
 namespace lcs::scenario {
 
@@ -37,7 +41,9 @@ std::optional<fs::path> shipped_scenario(const fs::path& name) {
   if (name.has_extension() || name.has_parent_path() || name.empty()) return std::nullopt;
   fs::path file = name;
   file += ".yaml";
+  std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(shipped_folder("scenarios"))) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
     if (entry.path().filename() != file) continue;
     for (const fs::path& here : {name, file}) {
       if (!fs::exists(here) || fs::equivalent(here, entry.path())) continue;
@@ -46,6 +52,10 @@ std::optional<fs::path> shipped_scenario(const fs::path& name) {
                                entry.path().string());
     }
     return entry.path();
+  }
+  if (const auto near = fs::exists(name) ? std::nullopt : input::nearest(name.string(), names)) {
+    throw std::runtime_error("'" + name.string() + "' is no scenario and no file; did you mean '" +
+                             *near + "'?");
   }
   return std::nullopt;
 }

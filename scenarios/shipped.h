@@ -21,7 +21,8 @@ std::filesystem::path shipped_folder(const std::filesystem::path& name);
 
 /// The scenario file of the project with this name, such as "crossing"; absent if there is none or
 /// the name has a folder or an extension. \throws std::runtime_error if a file or folder called so,
-/// or so with .yaml, is in the current folder too: it would be unclear which is meant.
+/// or so with .yaml, is in the current folder too: it would be unclear which is meant; or
+/// if nothing is called so, and the name of a scenario is near.
 std::optional<std::filesystem::path> shipped_scenario(const std::filesystem::path& name);
 
 }  // namespace lcs::scenario

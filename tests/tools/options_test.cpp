@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -191,6 +192,22 @@ TEST(RowsOfDetectors, LimitOfTimeGoesWithAProgramAlone) {
   EXPECT_EQ(arguments({"", "./mine", 2.5, ""}),
             (Arguments{"run", "--detector-command", "./mine", "--detector-timeout", "2.5"}));
   EXPECT_EQ(arguments({"", "", 2.5, ""}), Arguments{"run"});
+}
+
+TEST(Help, EndsWithoutAWordWhereItsReaderHasEnough) {
+  const TemporaryFolder folder;
+  // The pipe's reader has gone before the help is written.
+  const std::string command =
+      "(sleep 0.2; " + std::string(LCS_PROGRAM) + " suite --help) 2>said | true";
+  ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " + command).c_str()), 0);
+  EXPECT_EQ(read(folder.path() / "said"), "");
+}
+
+TEST(Scenarios, ThatAreMisspeltAreSuggested) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_lcs({"run", "crosing"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "lcs: 'crosing' is no scenario and no file; did you mean 'crossing'?\n");
 }
 
 }  // namespace

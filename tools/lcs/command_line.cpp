@@ -1,6 +1,7 @@
 #include "tools/lcs/command_line.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -100,6 +101,7 @@ int run_command_line(const std::vector<Command>& commands, const std::string& he
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
+    ::signal(SIGPIPE, SIG_DFL);  // `lcs --help | head` ends without a word, as other programs do
     return app.exit(help_or_version);
   } catch (const CLI::ExcludesError& error) {
     return fail(fmt::format("{}: the two do not go together; leave one of them out", error.what()));
