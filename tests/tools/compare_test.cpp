@@ -8,8 +8,10 @@
 #include <fstream>
 
 #include "tests/tools/command.h"
+#include "tests/tools/recordings.h"
 #include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::suite {
 namespace {
@@ -137,6 +139,41 @@ TEST_F(CompareCommand, HelpTeachesExamplesAndExitCodes) {
   for (const char* part : {"Examples", "lcs compare", "Exit codes", "not judged"}) {
     EXPECT_NE(help.out.find(part), std::string::npos) << part << " in\n" << help.out;
   }
+}
+
+TEST_F(CompareCommand, FramesAreOfRunsAndOnlyAllGoesWithThem) {
+  suite("a", {0.5});
+  const CommandResult none = compare({"a", "a", "--frames"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("a has no frames of near seed 1; make it with --keep all"),
+            std::string::npos)
+      << none.err;
+  const CommandResult both = compare({"a", "a", "--frames", "--metric", "f1"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_NE(both.err.find("only --all goes with it"), std::string::npos) << both.err;
+}
+
+TEST_F(CompareCommand, FramesNameTheFirstThatDiffersAndRunsOfOneSide) {
+  const auto run = [&](const std::string& name, int frames, Verdict verdict) {
+    std::filesystem::create_directories(folder_.path() / name);
+    recording::RecordingWriter writer(folder_.path() / name, test::recording_of({}));
+    for (int k = 0; k < frames; ++k) {
+      const Verdict here = k == 1 ? verdict : Verdict::normal;
+      writer.write(test::FrameMaker(k).corner(here, sim::Label::fixed));
+    }
+    writer.close();
+  };
+  run("a", 3, Verdict::normal);
+  run("b", 3, Verdict::rebel);
+  const CommandResult same = compare({"a", "a", "--frames"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_EQ(same.out, "equal: 0 of 1 run differ, in 0 of 3 frames\n");
+  const CommandResult other = compare({"a", "b", "--frames"});
+  EXPECT_EQ(other.exit_code, 1) << other.err;
+  EXPECT_EQ(other.out,
+            "frame 1 (t = 0.100 s) is the first of 1 that differ, of 3, in corners/verdict\n"
+            "  (300, 300) px: normal -> rebel\n"
+            "different: 1 of 1 run differ, in 1 of 3 frames\n");
 }
 
 }  // namespace

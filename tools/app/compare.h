@@ -2,10 +2,12 @@
 /// The differences between two suites beyond the noise of their seeds.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tools/app/option.h"
+#include "tools/recording/difference.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/verdict.h"
@@ -31,5 +33,26 @@ struct Compared {
 
 /// \throws std::runtime_error if a suite cannot be read or the two have no scenario in common.
 Compared compare(const CompareRequest& request);
+
+/// The frames of a run in two results.
+struct RunFrames {
+  std::string name;                     ///< such as "crossing seed 1"; "" of two folders of runs
+  std::filesystem::path before, after;  ///< folders
+  recording::Difference difference;
+};
+
+struct ComparedFrames {
+  std::vector<RunFrames> runs;       ///< those on both sides
+  std::vector<std::string> missing;  ///< messages on runs of only one side
+};
+
+/// Compares the frames of two runs, or of the runs that two suites have in common.
+/// \param before, after folders of runs or suites.
+/// 	hrows std::runtime_error if a file cannot be read, a run was made without frames (`--keep`),
+///   or the two have no run in common.
+ComparedFrames compare_frames(const std::string& before, const std::string& after);
+
+/// The first frame that differs, and a line for each of its corners that do, up to `most`.
+std::string first_frame_text(const RunFrames& run, std::size_t most);
 
 }  // namespace lcs::app

@@ -1,12 +1,17 @@
 /// \file
 /// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+#include <stdexcept>
 
 #include "scenarios/input/message.h"
 #include "tools/app/compare.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/suite_end.h"
 #include "tools/lcs/terminal.h"
+#include "tools/suite/judgement.h"
 
 namespace lcs::tools {
 namespace {
@@ -14,6 +19,7 @@ namespace {
 struct CompareOptions {
   app::CompareRequest request;
   bool all = false;
+  bool frames = false;
   bool fail_on_regression = true;  ///< always
 };
 
@@ -23,6 +29,8 @@ constexpr const char* kCompareHelp = R"(Examples:
   lcs compare out/before out/after
   lcs compare out/before out/after --metric 'rebel\.f1' --all
   lcs compare out/before out/after --markdown out/summary        for a pull request
+  lcs compare out/before out/after --frames      after a change that should change nothing: the first frame of
+                                                 each run that differs, and its corners; also of two runs
 
 The verdict is one of four (tools/suite/README.md). It rests on the means of four main figures over all
 scenarios: F1, false corners a frame, false objects and boxes of movers; with --metric on the figures that it names.
@@ -35,9 +43,9 @@ scenarios: F1, false corners a frame, false objects and boxes of movers; with --
 Other means and single scenarios are a list below; one with a single seed has no verdict. Times are never judged.
 
 Exit codes:
-  0  equal, or no regression found
-  1  regressed
-  2  not judged, a suite cannot be read, or the two have nothing in common
+  0  equal, or no regression found; with --frames: all frames are equal
+  1  regressed; with --frames: a frame differs
+  2  not judged, a suite cannot be read, or the two have nothing in common; with --frames: runs of only one side
 )";
 
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
@@ -47,7 +55,36 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
                                   fmt::join(suite.sets, ", "))));
 }
 
+ExitCode compare_frames(const CompareOptions& options) {
+  app::CompareRequest plain;
+  plain.before = options.request.before;
+  plain.after = options.request.after;
+  if (app::arguments_of(options.request) != app::arguments_of(plain)) {
+    throw std::invalid_argument("--frames compares all frames; only --all goes with it");
+  }
+  const auto [runs, missing] = app::compare_frames(plain.before, plain.after);
+  constexpr std::size_t kMostCorners = 20;
+  std::ptrdiff_t different = 0, frames = 0, differing = 0;
+  for (const app::RunFrames& run : runs) {
+    if (run.difference.first) {
+      print_out("{}", app::first_frame_text(run, options.all ? SIZE_MAX : kMostCorners));
+    }
+    different += run.difference.first.has_value();
+    frames += run.difference.frames;
+    differing += run.difference.differing;
+  }
+  for (const std::string& what : missing) print_out("not compared: {}\n", what);
+  const std::string counts = fmt::format("{} of {} differ, in {} of {}", different,
+                                         suite::counted(std::ssize(runs), "run"), differing,
+                                         suite::counted(frames, "frame"));
+  const suite::Light light =
+      different == 0 && missing.empty() ? suite::Light::green : suite::Light::red;
+  print_out("{}\n", coloured((different > 0 ? "different: " : "equal: ") + counts, light));
+  return different > 0 ? kRegressed : missing.empty() ? kFine : kError;
+}
+
 ExitCode compare(const CompareOptions& options) {
+  if (options.frames) return compare_frames(options);
   const auto [before, after, comparison, verdict, warnings] = app::compare(options.request);
   warn(warnings);
   print_suite("before", options.request.before, before);
@@ -60,7 +97,10 @@ ExitCode compare(const CompareOptions& options) {
 app::Options options_of(CompareOptions& options) {
   app::Options all = app::options_of(options.request);
   all.add("--all", "", &options.all,
-          "Also unchanged figures, and figures without a better direction");
+          "Also unchanged figures, and figures without a better direction; with --frames all "
+          "corners");
+  all.add("--frames", "", &options.frames,
+          "Instead of figures, name the first frame of each run that differs, with its corners");
   all.add(
       "--fail-on-regression", "", &options.fail_on_regression,
       "Exit with 1 after a regression: this command always does, lcs suite only if it is asked");
