@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <tuple>
 
 #include "tests/tools/suites.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/suite/sequential.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::suite {
 namespace {
@@ -459,6 +463,128 @@ TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
             "changes up to 1\n");
   const std::string all = text_of(compare_all(before, after), true);
   EXPECT_NE(all.find("no real change:\n  same"), std::string::npos) << all;
+}
+
+// ---- Looks at a suite while it runs
+
+std::vector<Planned> planned(const SuiteResult& suite) {
+  std::vector<Planned> plan;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    Planned& one = plan.emplace_back();
+    one.name = scenario.name;
+    if (scenario.drawn) one.family = scenario.drawn->family;
+    for (const RunResult& run : scenario.runs) one.seeds.push_back(run.seed);
+  }
+  return plan;
+}
+
+/// The suite as a look leaves it.
+SuiteResult at_look(const SuiteResult& suite, const std::vector<RunName>& order, const Look& look) {
+  SuiteResult made =
+      with_runs(suite, {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(look.runs)});
+  made.sequential = {look, order.size()};
+  return made;
+}
+
+TEST(Looks, SpendTheProbabilityOfAFalseAlarmAndEndWithAllRuns) {
+  for (const std::size_t runs : {1u, 9u, 10u, 29u, 60u, 129u, 1000u}) {
+    const std::vector<Look> looks = looks_of(runs);
+    EXPECT_EQ(looks.back().runs, runs);
+    EXPECT_LE(looks.size(), 6u);
+    double spent = 0;
+    std::size_t before = 0;
+    for (const Look& look : looks) {
+      if (looks.size() > 1) {
+        EXPECT_GE(look.runs - before, 5u) << runs;
+      }
+      before = look.runs;
+      spent += look.level;
+    }
+    EXPECT_NEAR(spent, 0.05, 1e-12) << runs;
+    EXPECT_TRUE(std::ranges::is_sorted(looks, {}, &Look::level)) << "early looks spend less";
+  }
+}
+
+TEST(Looks, TakeTheFamiliesInTurnTheWorstFirstAndTheFirstSeedOfAllFirst) {
+  SuiteResult baseline = suite_with({});
+  for (const auto& [name, family, f1] :
+       {std::tuple("r1", "room", 0.8), std::tuple("r2", "room", 0.8),
+        std::tuple("s1", "street", 0.4)}) {
+    ScenarioResult world = scenario_with(name, "rebel.f1", {f1, f1});
+    world.drawn = Drawn{family, 0, {}};
+    baseline.scenarios.push_back(world);
+  }
+  const std::vector<RunName> order = order_of(planned(baseline), baseline);
+  EXPECT_EQ(order, (std::vector<RunName>{
+                       {"s1", 1}, {"r1", 1}, {"r2", 1}, {"s1", 2}, {"r1", 2}, {"r2", 2}}));
+}
+
+TEST(Looks, AGrossLossEndsTheSuiteAtTheFirst) {
+  std::mt19937 random(1);
+  const SuiteResult before = noise(60, 1, true, random);
+  SuiteResult after = before;
+  for (ScenarioResult& world : after.scenarios) {
+    world.runs[0].metrics[1].second = *world.runs[0].metrics[1].second - 0.3;  // rebel.f1
+  }
+  const std::vector<RunName> order = order_of(planned(before), before);
+  const std::vector<Look> looks = looks_of(order.size());
+  const SuiteResult made = at_look(after, order, looks[0]);
+  const Comparison comparison = compare_all(before, made);
+  EXPECT_EQ(made.scenarios.size(), 10u);
+  EXPECT_TRUE(comparison.missing.empty()) << "only the runs of a stopped suite are compared";
+  EXPECT_TRUE(comparison.has_regressed());
+  EXPECT_DOUBLE_EQ(comparison.level, looks[0].level);
+  EXPECT_TRUE(is_certain(comparison, looks, 0));
+}
+
+TEST(Looks, NoRegressionIsConcludedFromLessThanHalfOfTheRuns) {
+  std::mt19937 random(1);
+  const SuiteResult before = noise(60, 1, true, random);
+  const std::vector<RunName> order = order_of(planned(before), before);
+  const std::vector<Look> looks = looks_of(order.size());
+  const auto is_certain_at = [&](std::size_t look) {
+    return is_certain(compare_all(before, at_look(before, order, looks[look])), looks, look);
+  };
+  EXPECT_FALSE(is_certain_at(0));
+  EXPECT_FALSE(is_certain_at(1));
+  EXPECT_TRUE(is_certain_at(2)) << "30 of 60 worlds are equal to the last bit";
+}
+
+TEST(Looks, RaiseNoMoreFalseAlarmsThanOneLookAndTakeFewerRuns) {
+  std::mt19937 random(7);
+  int alarms = 0;
+  double share = 0;
+  constexpr int kPairs = 200;
+  for (int i = 0; i < kPairs; ++i) {
+    const SuiteResult before = noise(60, 1, true, random), after = noise(60, 1, true, random);
+    const std::vector<RunName> order = order_of(planned(before), before);
+    const std::vector<Look> looks = looks_of(order.size());
+    for (std::size_t k = 0;; ++k) {
+      const Comparison comparison = compare_all(before, at_look(after, order, looks[k]));
+      if (k + 1 < looks.size() && !is_certain(comparison, looks, k)) continue;
+      alarms += comparison.has_regressed();
+      share += static_cast<double>(looks[k].runs) / 60 / kPairs;
+      break;
+    }
+  }
+  EXPECT_LE(alarms, 12);  // as of SuitesThatDifferByNoiseAloneSeldomRegress
+  EXPECT_LE(share, 0.6);
+}
+
+TEST(Looks, AStoppedSuiteIsStoredAndSaysHowFarItGot) {
+  const test::TemporaryFolder folder;
+  SuiteResult suite = suite_with({scenario_with("near", "rebel.f1", {0.5})});
+  suite.sequential = {{1, 0.0125}, 3};
+  write_suite(folder.path() / kSuiteFile, suite);
+  const SuiteResult back = read_suite(folder.path());
+  ASSERT_TRUE(back.sequential);
+  EXPECT_EQ(back.sequential->look.runs, 1u);
+  EXPECT_EQ(back.sequential->look.level, 0.0125);
+  EXPECT_EQ(back.sequential->planned, 3u);
+  const SuiteResult before = suite_with({scenario_with("near", "rebel.f1", {0.5, 0.6, 0.7})});
+  const Comparison comparison = compare_all(before, back);
+  const SuiteVerdict verdict = verdict_of({back, ""}, nullptr, &comparison);
+  EXPECT_NE(verdict.line.find("after 1 of 3 runs"), std::string::npos) << verdict.line;
 }
 
 }  // namespace

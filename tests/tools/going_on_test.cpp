@@ -283,6 +283,48 @@ TEST_F(GoingOn, PartThatLacksFilesOrHasOthersIsRefused) {
   expect_refused({"merge", "p1", "p2", "--out", "m"}, "truth.jsonl.gz is missing");
 }
 
+// ---- A suite that ends when its verdict is certain
+
+TEST_F(GoingOn, SuiteEndsWhenItsVerdictIsCertainAlsoAfterAKillAndMakesAllRunsIfAsked) {
+  const Words suite{"suite", "s", "--seeds", "6", "--jobs", "1", "--set", "frames=8"};
+  ASSERT_EQ(lcs(joined(suite, {"--out", "before", "--quiet"})).exit_code, 0);
+  const auto runs_in = [&](const char* folder) {
+    return nlohmann::json::parse(read(home_ / folder / "suite.json"))["scenarios"][0]["runs"]
+        .size();
+  };
+  const Words again = joined(suite, {"--out", "after", "--baseline", "before"});
+  const CommandResult stopped = lcs(again);
+  ASSERT_EQ(stopped.exit_code, 0) << stopped.err;
+  // Equal to the last bit: half of the 12 runs, three seeds of both scenarios, suffice.
+  EXPECT_NE(stopped.out.find("2 as before, after 6 of 12 runs (--all makes them all)"),
+            std::string::npos)
+      << stopped.out;
+  EXPECT_EQ(runs_in("after"), 3u);
+  EXPECT_FALSE(fs::exists(home_ / "after.unfinished"));
+  const CommandResult compared = lcs({"compare", "before", "after"});
+  EXPECT_EQ(compared.exit_code, 0) << "runs that it did not make are not missing: " << compared.out;
+
+  const Words killed = joined(suite, {"--out", "killed", "--baseline", "before"});
+  kill_at(killed, "killed.unfinished/in/runs/a/seed-2/metrics.json", "killed");
+  ASSERT_EQ(lcs(killed).exit_code, 0);
+  EXPECT_EQ(runs_in("killed"), 3u);
+  EXPECT_EQ(lcs({"compare", "after", "killed", "--frames"}).exit_code, 0);
+
+  const CommandResult all = lcs(joined(again, {"--all", "--quiet"}));
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(runs_in("after"), 6u);
+}
+
+TEST_F(GoingOn, SuiteThatLacksRunsOfItsBaselineMakesAllOfItsOwn) {
+  ASSERT_EQ(lcs({"suite", "s", "--seeds", "7", "--out", "before", "--quiet"}).exit_code, 0);
+  const CommandResult fewer = lcs({"suite", "s", "--seeds", "6", "--out", "after", "--baseline",
+                                   "before", "--fail-on-regression"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_NE(fewer.out.find("not judged: missing or other frames than before"), std::string::npos)
+      << fewer.out;
+  EXPECT_EQ(fewer.out.find("--all makes them all"), std::string::npos) << fewer.out;
+}
+
 // ---- Recordings and baselines
 
 TEST_F(GoingOn, RecordingOfAnotherSceneIsRefused) {

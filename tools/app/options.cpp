@@ -275,6 +275,9 @@ Options options_of(SuiteRequest& request) {
           "With --shard: an earlier suite, whose times balance the parts; the same for all parts",
           {.needs = "--shard"});
   add_place(all, request.place);
+  all.add("--all", "", &request.all,
+          "Make all runs, also if the verdict against the baseline is certain before",
+          {.needs = "--baseline"});
   all.add("--anew", "", &request.anew,
           "Drop the runs of an unfinished suite in the same place, and begin again");
   return all;

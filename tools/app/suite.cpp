@@ -19,6 +19,7 @@
 #include "tools/files/output.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/parts.h"
+#include "tools/suite/sequential.h"
 
 namespace lcs::app {
 namespace {
@@ -297,7 +298,8 @@ class Making {
     files::Output folder(request_.place.out, suite::suite_files(), files::Unfinished::kept);
     begin(folder, provenance_, request_);
     try {
-      std::vector<suite::SuiteResult> others = run_all(folder);
+      std::vector<suite::SuiteResult> others =
+          is_sequential(baseline) ? run_looks(folder, *baseline) : run_all(folder);
       suite::SuiteResult own = std::move(others.front());
       others.erase(others.begin());
       watch_.wipe();
@@ -323,6 +325,7 @@ class Making {
     const std::set<std::string> watching = names_of_all(request_, own_);
     if (!request_.recorded.empty()) comparators::require_corners_suffice(spec);
     planned_ = plan_suite(request_, caller_);
+    now_ = planned_.plan;
     if (!request_.detector.detections.empty()) {
       require_detections(request_.detector.detections, planned_);
     }
@@ -349,7 +352,7 @@ class Making {
                                       const std::vector<std::string>& detectors,
                                       const fs::path& recordings) {
     std::vector<suite::SuiteResult> results = suite::run_suite(
-        planned_.plan,
+        now_,
         {.detectors = detectors_in(folder, detectors),
          .run_of =
              [&](const auto& planned, std::uint64_t seed, const auto& detector) {
@@ -366,8 +369,7 @@ class Making {
          .provenance = provenance_,
          .on_begin =
              [&](std::size_t there) {
-               whole_ = there;
-               if (there == 0) return;
+               if (std::exchange(whole_, there) > 0 || there == 0) return;
                caller_.note(fmt::format("going on, with {} of the runs there already", there));
              },
          .on_result = [&] { folder.keep(); },
@@ -408,11 +410,52 @@ class Making {
     return all;
   }
 
+  /// Whether the verdict may end the suite early: if all runs of the baseline are planned.
+  bool is_sequential(const std::optional<suite::SuiteResult>& baseline) const {
+    if (!baseline || request_.all || planned_.part_of) return false;
+    std::set<suite::RunName> planned;
+    for (const suite::PlannedScenario& one : planned_.plan) {
+      for (const std::uint64_t seed : one.seeds) planned.emplace(one.name, seed);
+    }
+    if (suite::looks_of(planned.size()).size() < 2) return false;
+    return request_.place.allow_missing ||
+           std::ranges::all_of(baseline->scenarios, [&](const suite::ScenarioResult& scenario) {
+             return std::ranges::all_of(scenario.runs, [&](const suite::RunResult& run) {
+               return planned.contains({scenario.name, run.seed});
+             });
+           });
+  }
+
+  /// Makes the runs up to each look, until the verdict is certain.
+  std::vector<suite::SuiteResult> run_looks(files::Output& folder,
+                                            const suite::SuiteResult& baseline) {
+    std::vector<suite::Planned> planned;
+    for (const suite::PlannedScenario& one : planned_.plan) {
+      const bool is_world = one.scenario && one.scenario->origin;
+      planned.push_back({one.name, is_world ? one.scenario->origin->family : "", one.seeds});
+    }
+    const std::vector<suite::RunName> order = suite::order_of(planned, baseline);
+    const std::vector<suite::Look> looks = suite::looks_of(order.size());
+    for (std::size_t k = 0;; ++k) {
+      now_ = planned_.plan;
+      const auto end = order.begin() + static_cast<std::ptrdiff_t>(looks[k].runs);
+      suite::keep_runs(now_, {order.begin(), end});
+      std::vector<suite::SuiteResult> results = run_all(folder);
+      for (suite::SuiteResult& result : results) result.sequential = {looks[k], order.size()};
+      const suite::Comparison comparison =
+          suite::compare(baseline, results.front(), [](std::string_view) { return true; });
+      if (k + 1 == looks.size() || suite::is_certain(comparison, looks, k)) return results;
+      caller_.note(fmt::format("after {} of {} runs the verdict is not certain yet", looks[k].runs,
+                               order.size()));
+    }
+  }
+
   const SuiteRequest& request_;
   Caller& caller_;
   SuiteWatch& watch_;
   std::string own_;  ///< name of the suite's own detector
   SuitePlan planned_;
+  std::vector<suite::PlannedScenario> now_;  ///< the runs to make now
   files::Provenance provenance_;
   std::size_t whole_ = 0, total_ = 0;  ///< runs
 };

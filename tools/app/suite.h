@@ -33,6 +33,7 @@ struct SuiteRequest {
   std::string shard;  ///< "2/5": only the second of five parts; "": all
   std::string times;  ///< earlier suite whose durations balance the parts; "": none
   bool anew = false;  ///< drop the runs of an unfinished suite
+  bool all = false;   ///< make all runs, also if the verdict against the baseline is certain before
   SuitePlace place;
 };
 

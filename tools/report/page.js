@@ -28,7 +28,8 @@ function figureCell(figure) {
   }
   if (hasBaseline) {
     const { before, change, half, verdict } = figure;
-    const noise = isNumber(half) ? ', 95 % interval ±' + Number(half.toPrecision(2)) : ', noise unknown';
+    const noise = !isNumber(half) ? ', noise unknown'
+      : ', ' + Number((100 * (1 - data.baseline.level)).toPrecision(3)) + ' % interval ±' + Number(half.toPrecision(2));
     cell.append(el('span', { class: 'change ' + (COLOURS[verdict] || ''),
       title: isNumber(before) ? 'was ' + Number(before.toPrecision(6)) + noise +
         ', over the scenarios and seeds that both have' : 'not compared' },

@@ -394,6 +394,7 @@ files::Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdi
     data["baseline"] = {{"detector", baseline->suite.detector},
                         {"version", baseline->suite.version},
                         {"sets", baseline->suite.sets},
+                        {"level", comparison->level},
                         {"folder", baseline->folder.generic_string()}};
   }
   const std::set<std::string> whole = shown_whole(suite.suite, verdict);

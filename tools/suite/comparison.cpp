@@ -12,6 +12,7 @@
 
 #include "tools/scoring/statistics.h"
 #include "tools/suite/judgement.h"
+#include "tools/suite/sequential.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
@@ -46,6 +47,7 @@ class Comparer {
            const std::function<bool(std::string_view)>& is_wanted)
       : before_(before), after_(after) {
     result_.is_of_worlds = is_of_worlds(after);
+    if (after.sequential) result_.level = after.sequential->look.level;
     for (const scoring::Metric& metric : scoring::metrics()) {
       if (!metric.is_time() && is_wanted(metric.key)) compared_.push_back(&metric);
     }
@@ -147,12 +149,12 @@ class Comparer {
     }
     if (changes.empty()) return;
 
-    const Interval change = interval_of(changes);
+    const Interval change = interval_of(changes, result_.level);
     result_.differences.push_back(
         difference_of(scenario, metric, *scoring::mean(before), *scoring::mean(after), change));
     result_.differences.back().pairs = static_cast<int>(changes.size());
     Difference& difference = result_.differences.back();
-    if (chance_beyond(difference.change, least_of(difference)) <= 0.05) {
+    if (chance_beyond(difference.change, least_of(difference)) <= result_.level) {
       difference.verdict = direction_of(difference, scoring::mean(f1_changes));
     } else if (!difference.change.half && difference.weight > 1) {
       difference.verdict = Change::unknown;
@@ -178,7 +180,8 @@ class Comparer {
     if (before.empty()) return;
     result_.groups.push_back(
         difference_of(group, metric, *scoring::mean(before), *scoring::mean(after),
-                      result_.is_of_worlds ? interval_of(by_world) : interval_of_strata(strata)));
+                      result_.is_of_worlds ? interval_of(by_world, result_.level)
+                                           : interval_of_strata(strata, result_.level)));
     result_.groups.back().pairs = static_cast<int>(before.size());
   }
 
@@ -208,7 +211,7 @@ class Comparer {
       judged.push_back(&mean);
       chances.push_back(chance_beyond(mean.change, least_of(mean)));
     }
-    const std::vector<bool> real = real_among(chances);
+    const std::vector<bool> real = real_among(chances, result_.level);
     for (std::size_t i = 0; i < judged.size(); ++i) {
       if (real[i]) judged[i]->verdict = direction_of(*judged[i], f1_change(judged[i]->scenario));
     }
@@ -322,8 +325,11 @@ const char* word_of(Finding finding) {
 
 double Difference::possible_loss() const {
   if (change.mean == 0 && !change.half) return 0;
-  const double loss = better == scoring::Direction::higher ? -change.mean : change.mean;
-  return std::max(0.0, loss + change.half.value_or(std::numeric_limits<double>::infinity()));
+  return std::max(0.0, loss() + change.half.value_or(std::numeric_limits<double>::infinity()));
+}
+
+double Difference::loss() const {
+  return better == scoring::Direction::higher ? -change.mean : change.mean;
 }
 
 double Difference::margin() const {
@@ -489,7 +495,14 @@ std::string text_of(Finding finding, const Comparison& comparison, int failed_cr
 
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted) {
-  return Comparer(before, after, is_wanted).compare();
+  if (!after.sequential || !after.sequential->is_stopped()) {
+    return Comparer(before, after, is_wanted).compare();
+  }
+  std::set<RunName> made;
+  for (const ScenarioResult& scenario : after.scenarios) {
+    for (const RunResult& run : scenario.runs) made.emplace(scenario.name, run.seed);
+  }
+  return Comparer(with_runs(before, made), after, is_wanted).compare();
 }
 
 std::vector<const Difference*> shown_means(const Comparison& comparison, bool all) {
@@ -508,8 +521,8 @@ std::vector<const Difference*> shown_means(const Comparison& comparison, bool al
 std::string means_text(const Comparison& comparison, bool all) {
   const auto shown = shown_means(comparison, all);
   if (shown.empty()) return "";
-  return "means over so many scenarios, with the 95 % interval of each change:\n" +
-         lines_of(shown, true);
+  return fmt::format("means over so many scenarios, with the {:.3g} % interval of each change:\n{}",
+                     100 * (1 - comparison.level), lines_of(shown, true));
 }
 
 std::string text_of(const Comparison& comparison, bool all) {

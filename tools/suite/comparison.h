@@ -57,6 +57,8 @@ struct Difference {
 
   /// The worse end of the interval of the change, >= 0; infinite if a change has an unknown noise.
   double possible_loss() const;
+  /// The mean of the change, positive if it is a loss.
+  double loss() const;
   /// A loss up to this one counts as none: twice the least change that matters.
   double margin() const;
 };
@@ -76,9 +78,10 @@ struct Comparison {
   /// frames.
   std::vector<std::string> missing;
   int undefined = 0;  ///< main figures of single scenarios that only the earlier suite defines
-  bool is_of_worlds = false;  ///< the intervals of `groups` are over worlds, else over seeds
-  int judged = 0;             ///< number of differences of figures that are not neutral
-  int judged_means = 0;       ///< likewise of `groups`, those with known noise
+  bool is_of_worlds = false;    ///< the intervals of `groups` are over worlds, else over seeds
+  double level = kFalseAlarms;  ///< of all intervals and verdicts: .05, or of a look (sequential.h)
+  int judged = 0;               ///< number of differences of figures that are not neutral
+  int judged_means = 0;         ///< likewise of `groups`, those with known noise
   /// Scenarios with a run that had figures before and has none now. Each counts as a regression,
   /// whatever its other figures are.
   std::set<std::string> lost;
@@ -100,7 +103,8 @@ struct Comparison {
 /// -0.228]" or "no regression found, but a loss of up to 0.063 of rebel.f1 is not excluded".
 std::string text_of(Finding finding, const Comparison& comparison, int failed_criteria);
 
-/// Compares the metrics for which `is_wanted` is true. Times are never compared.
+/// Compares the metrics for which `is_wanted` is true. Times are never compared. If `after` was
+/// stopped early (`SuiteResult::sequential`), only its runs of `before` count.
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted);
 

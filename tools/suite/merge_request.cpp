@@ -151,9 +151,10 @@ std::string event_text(const fs::path& folder, const Grown& grown, const std::st
 // ---- Figures
 
 std::string means_table(const Comparison& comparison) {
-  std::string text =
-      "\n| mean over | figure | before | after | change, 95 % interval | "
-      "|\n|---|---|---|---|---|---|\n";
+  std::string text = fmt::format(
+      "\n| mean over | figure | before | after | change, {:.3g} % interval | "
+      "|\n|---|---|---|---|---|---|\n",
+      100 * (1 - comparison.level));
   for (const Difference* mean : shown_means(comparison, false)) {
     const std::string_view word = mean->real_word();
     const std::string half =

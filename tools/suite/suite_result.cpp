@@ -182,6 +182,12 @@ SuiteResult suite_of(const Node& node) {
   }
   if (node.has("split")) suite.split = node["split"].text();
   if (node.has("part_of")) suite.part_of = part_of(node["part_of"]);
+  if (node.has("sequential")) {
+    const Node looked = node["sequential"];
+    const double level = looked["level"].number();
+    looked["level"].require(level > 0 && level < 1, "a probability");
+    suite.sequential = {{looked["runs"].natural(), level}, looked["planned"].natural()};
+  }
   std::set<std::string> names;
   node["scenarios"].each([&](const Node& item) {
     suite.scenarios.push_back(scenario_of(item));
@@ -208,6 +214,11 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   if (!suite.beside.empty()) json["beside"] = suite.beside;
   if (!suite.split.empty()) json["split"] = suite.split;
   if (suite.part_of) json["part_of"] = to_json(*suite.part_of);
+  if (suite.sequential) {
+    json["sequential"] = {{"runs", suite.sequential->look.runs},
+                          {"planned", suite.sequential->planned},
+                          {"level", suite.sequential->look.level}};
+  }
   json["scenarios"] = std::move(scenarios);
   // A child's stderr may be invalid UTF-8, which JSON forbids.
   files::write_file(file, files::json_text(json, 1) + '\n');

@@ -70,6 +70,20 @@ struct PartOf {
   SuiteRuns whole;  ///< of the whole suite
 };
 
+/// A comparison of the runs so far (sequential.h).
+struct Look {
+  std::size_t runs = 0;  ///< number of runs so far
+  double level = 0;      ///< the probability of a false alarm by this look's verdicts
+};
+
+/// How far a suite got that is compared with its baseline while it runs.
+struct Sequential {
+  Look look;                ///< the last one
+  std::size_t planned = 0;  ///< number of runs of the whole suite
+
+  bool is_stopped() const { return look.runs < planned; }
+};
+
 struct SuiteResult {
   std::string detector;           ///< its name: lcs, lcs:lab, klt and so on
   std::vector<std::string> sets;  ///< "key=value", as given
@@ -80,6 +94,9 @@ struct SuiteResult {
   std::vector<std::string> beside = {};  ///< the detectors in beside/, in order
   std::string split = {};                ///< of its worlds; "": no worlds
   std::optional<PartOf> part_of = {};    ///< absent for a whole suite
+  /// Absent if it was made as a whole. Else its comparisons have this look's level, and of a
+  /// stopped suite are over its own runs alone.
+  std::optional<Sequential> sequential = {};
   std::vector<ScenarioResult> scenarios = {};
 };
 

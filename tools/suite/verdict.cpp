@@ -112,6 +112,10 @@ std::string line_of(const SuiteResult& suite, const Comparison* comparison,
       comparison->count_means(Change::regressed), comparison->count_means(Change::improved),
       counted(std::ssize(suite.scenarios), "scenario"), count[Change::regressed],
       count[Change::improved], count[Change::none]);
+  if (const auto& looked = suite.sequential; looked && looked->is_stopped()) {
+    line += fmt::format(", after {} of {} runs (--all makes them all)", looked->look.runs,
+                        looked->planned);
+  }
   if (count[Change::unknown] > 0) line += fmt::format(", {} unknown", count[Change::unknown]);
   if (count[std::nullopt] > 0) line += fmt::format(", {} not compared", count[std::nullopt]);
   return fmt::format("{}; {}", line, text_of(criteria));
