@@ -13,7 +13,7 @@ from pathlib import Path
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[2]
-PICTURES = (".jpg", ".png", ".svg")
+PICTURES = (".jpg", ".png", ".svg", ".webp")
 LANGUAGES = {".h": "cpp", ".cpp": "cpp", ".py": "python", ".pyi": "python", ".sh": "bash", ".xml": "xml", ".yaml": "yaml",
              ".json": "json", ".txt": "text"}
 # [text](target), [text](target#anchor)
