@@ -44,7 +44,8 @@ const tickText = (value) => value !== 0 && Math.abs(value) < 1e-3 ? value.toExpo
 // ---- Plots, by uPlot
 
 const HEIGHT = 170;
-const BANDS = { miss: { name: 'missed', style: 's2' }, false: { name: 'false alarm', style: 's5' } };
+const BANDS = { miss: { name: 'missed', style: 's2' }, false: { name: 'false alarm', style: 's5' },
+  worse: { name: 'worse level', style: 's5' } };
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name);
 
@@ -54,11 +55,11 @@ const loneOnes = (values) => values.flatMap((v, i) =>
 
 /**
  * x: in ascending order. series: {name, values, style, dashed, faint, spread}; a band is {from, to, kind}.
- * logX and logY: logarithmic scales; y begins at `bottom`, to which lower values are raised.
+ * whole: x has whole numbers. logX and logY: logarithmic scales; y begins at `bottom`, to which lower values are raised.
  * Pointing at the plot shows the values there, in all plots of the same `sync`, and calls `onPoint` with x's index.
  * `pointAt(value of x)` of the returned figure points at that value in this plot.
  */
-function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sync, onPoint }) {
+function plot({ title, x, xName, series, top, bands = [], whole, logX, logY, bottom, sync, onPoint }) {
   const low = x[0], high = x[x.length - 1];
   const shown = series.map((s) => s.values.map((v) => !isNumber(v) ? null : logY ? Math.max(v, bottom) : v));
   const greatest = top || shown.flat().reduce((most, v) => Math.max(most, v), 1e-9) * 1.05;
@@ -89,7 +90,7 @@ function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sy
   const chart = new uPlot({ width: 480, height: HEIGHT,
     scales: { x: scale(logX, [low, high > low ? high : low + 1]),
       y: scale(logY, logY ? [bottom, Math.max(greatest, 10 * bottom)] : [0, greatest]) },
-    axes: [axis({ size: 26, grid: { show: false } }), axis({ size: 44, grid: { stroke: () => colour('line'), width: 1,
+    axes: [axis({ size: 26, grid: { show: false }, ...(whole && { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500] }) }), axis({ size: 44, grid: { stroke: () => colour('line'), width: 1,
       filter: (_, ticks) => logY ? ticks.map((v) => Number.isInteger(Number(Math.log10(v).toFixed(6))) ? v : null) : ticks } })],
     legend: { markers: { width: 2, dash: (_, i) => !series[i - 1] ? 'none' : series[i - 1].faint ? 'dotted' : series[i - 1].dashed ? 'dashed' : 'solid' } },
     cursor: { y: false, drag: { x: false }, sync: sync ? { key: sync } : undefined },
