@@ -628,7 +628,7 @@ def simulate(scenario: Scenario) -> Simulation:
         fail.
 
     """
-def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False, anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False, all: bool = False, anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
     """
     Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
