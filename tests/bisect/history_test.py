@@ -70,6 +70,11 @@ class History(unittest.TestCase):
         self.assertEqual(data["changes"], [], "another mix of scenarios is no change")
         self.assertEqual(data["left_out"], [f"s{k} seed 1" for k in range(4, 8)])
 
+    def test_a_night_whose_runs_all_failed_is_named(self):
+        self.add(1, 0.8)
+        self.add(2, 0.8, scenarios=0)
+        self.assertIn("no run of night_02 has figures", self.history()[2])
+
     def test_suites_of_several_detectors_and_other_files_are_refused(self):
         self.add(1, 0.8)
         self.assertIn("has 1 suites", self.history()[2])
