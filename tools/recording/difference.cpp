@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "tools/files/json_node.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 
@@ -19,9 +20,10 @@ namespace {
 /// Adds the names of the members that differ between two lines; of a list, of few columns too.
 void add_names(const std::string& before, const std::string& after, const std::string& prefix,
                std::vector<std::string>& what) {
-  using Json = nlohmann::json;
   std::map<std::string, std::set<std::string>> columns;
-  for (const Json& change : Json::diff(Json::parse(before), Json::parse(after))) {
+  const auto patch = nlohmann::json::diff(files::parse_json<nlohmann::json>(before),
+                                          files::parse_json<nlohmann::json>(after));
+  for (const nlohmann::json& change : patch) {
     const auto path = change.at("path").get<std::string>();  // such as "/corners/verdict/17"
     static const std::regex kNames("/([^/]+)(/[a-z][^/]*)?.*");
     std::smatch parts;
