@@ -305,7 +305,7 @@ class Making {
       watch_.wipe();
       own.recorded = recorded;
       write_how_made(folder, request_, provenance_);
-      if (of_worlds(request_)) write_sheets(folder.staging(), planned_.plan, own, caller_);
+      if (of_worlds(request_)) write_sheets(folder.staging(), now_, own, caller_);
       return finish_suite(folder, request_.place, std::move(own), std::move(others), baseline,
                           caller_);
     } catch (const Interrupted&) {
