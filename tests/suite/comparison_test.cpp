@@ -10,7 +10,6 @@
 
 #include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/suite/sequential.h"
 #include "tools/suite/verdict.h"
 
 namespace lcs::suite {
@@ -466,25 +465,6 @@ TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
 }
 
 // ---- Looks at a suite while it runs
-
-std::vector<Planned> planned(const SuiteResult& suite) {
-  std::vector<Planned> plan;
-  for (const ScenarioResult& scenario : suite.scenarios) {
-    Planned& one = plan.emplace_back();
-    one.name = scenario.name;
-    if (scenario.drawn) one.family = scenario.drawn->family;
-    for (const RunResult& run : scenario.runs) one.seeds.push_back(run.seed);
-  }
-  return plan;
-}
-
-/// The suite as a look leaves it.
-SuiteResult at_look(const SuiteResult& suite, const std::vector<RunName>& order, const Look& look) {
-  SuiteResult made =
-      with_runs(suite, {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(look.runs)});
-  made.sequential = {look, order.size()};
-  return made;
-}
 
 TEST(Looks, SpendTheProbabilityOfAFalseAlarmAndEndWithAllRuns) {
   for (const std::size_t runs : {1u, 9u, 10u, 29u, 60u, 129u, 1000u}) {

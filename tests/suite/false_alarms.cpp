@@ -9,8 +9,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/tools/suites.h"
 #include "tools/suite/comparison.h"
-#include "tools/suite/sequential.h"
 #include "tools/suite/suite_result.h"
 
 namespace {
@@ -53,19 +53,10 @@ struct Ended {
 
 /// Compares as `lcs suite --baseline` does, on runs that are all there.
 Ended sequential(const SuiteResult& before, const SuiteResult& after) {
-  std::vector<Planned> plan;
-  for (const ScenarioResult& scenario : after.scenarios) {
-    Planned& planned = plan.emplace_back();
-    planned.name = scenario.name;
-    if (scenario.drawn) planned.family = scenario.drawn->family;
-    for (const RunResult& run : scenario.runs) planned.seeds.push_back(run.seed);
-  }
-  const std::vector<RunName> order = order_of(plan, before);
+  const std::vector<RunName> order = order_of(planned(after), before);
   const std::vector<Look> looks = looks_of(order.size());
   for (std::size_t k = 0;; ++k) {
-    SuiteResult made = with_runs(
-        after, {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(looks[k].runs)});
-    made.sequential = {looks[k], order.size()};
+    const SuiteResult made = at_look(after, order, looks[k]);
     const Comparison comparison = compare(before, made, [](std::string_view) { return true; });
     if (k + 1 < looks.size() && !is_certain(comparison, looks, k)) continue;
     return {comparison.has_regressed(),

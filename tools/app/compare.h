@@ -48,7 +48,7 @@ struct ComparedFrames {
 
 /// Compares the frames of two runs, or of the runs that two suites have in common.
 /// \param before, after folders of runs or suites.
-/// 	hrows std::runtime_error if a file cannot be read, a run was made without frames (`--keep`),
+/// \throws std::runtime_error if a file cannot be read, a run was made without frames (`--keep`),
 ///   or the two have no run in common.
 ComparedFrames compare_frames(const std::string& before, const std::string& after);
 
