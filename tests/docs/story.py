@@ -132,9 +132,6 @@ def kept_section(page):
 
 def page(runs):
     lab, street = runs["lab"], runs["street"]
-    frames = table(
-        ["frame", "corners", "ignored in psi", "normal edges", "rebel edges", "normal circles", "rebel circles", "squares"],
-        [[str(k)] + [lab.rows[k][name] for name in ("corners", "ignored_corners", *KINDS)] for k in (0, 1, 2, 4, 14, 25, 36)])
     memory = table(
         ["drive", "corners a frame", "items", "numbers in the items", "corners of 5 frames", "of 8 frames", "numbers in those"],
         [[name, f"{run.mean('corners'):.0f}", f"{run.mean('dimension'):.0f}",
@@ -161,7 +158,7 @@ def page(runs):
     return f"""# The paper's story, measured
 
 Written on {datetime.date.today()} by `tests/docs/story.py`. The figures are of simulated drives, for which the truth is known. Figures per frame
-are means over the frames from the tenth on. `street_drive.yaml` is cut to its first 250 frames.
+are means over the frames from the tenth on. Of `street_drive.yaml` the first 250 frames are used.
 
 ## The paper's figures, and ours
 
@@ -173,55 +170,50 @@ The photographs are replayed by
 
 Why they differ:
 
-* **The contrast of corners.** The paper's FAST threshold "20" is a contrast of .20, that is 51 grey levels: only so are there 74 corners a
-  frame. `lab.yaml` has 20 grey levels.
-* **Photographs and simulation.** With as many corners the simulated room has fewer items: its corners are steadier, so that fewer edges are
-  made anew.
-* **The rules.** Where the paper's text and its authors' program differ, `lab` follows the text ([EQUATIONS.md](../EQUATIONS.md)). Its items
+* **Contrast.** The paper's FAST threshold "20" is a contrast of .20, that is 51 grey levels: only so are there 74 corners a frame. `lab.yaml`
+  has a threshold of 20 grey levels.
+* **Simulation.** The corners of the simulated room are steadier, so that fewer edges are made anew.
+* **Rules.** Where the paper's text and its authors' program differ, `lab` follows the text ([EQUATIONS.md](../EQUATIONS.md)). Its items
   fall later, since its edges live longer.
-* **Cars.** The paper reports about 360 items, and "the last 8 frames" as overwhelmingly more. Its pictures and the contrast of its corners
-  are not published, so that `street_drive.yaml` has other corners, and its items can only be compared with them (see Memory).
-* **Recall, precision, time.** The paper gives none.
+* **Cars.** The paper's pictures and their contrast are not published. So `street_drive.yaml` has other corners.
 
 ## Line, Circle, Square: one run
 
-The paper's first experiment is a robot that drives at 3 cm/s through a laboratory and takes a picture each second. `scenarios/lab.yaml`
-simulates it; nothing moves by itself. With `filter.preset=lab` the paper's rules run with the numbers of its Table 1:
+In the paper's first experiment a robot drives at 3 cm/s through a laboratory and takes a picture each second. Nothing moves by itself.
+`scenarios/lab.yaml` simulates it; `filter.preset=lab` takes the paper's rules and its Table 1.
 
 ![Frames 4, 14 and 25 of lab.yaml with the preset lab](story_lab.jpg)
 
-*Frames 4, 14 and 25, as in the paper. Corners with ignored regions psi; edges; circles; squares.*
+*Frames 4, 14 and 25, as in the paper: corners with ignored regions psi; edges; circles; squares.*
 
 * **Line.** FAST finds the corners. The Line expert drops the corners inside psi, and groups the others by the collectors lambda.
 * **Circle.** A corner near the predicted place of an edge confirms it, and its trust rises. Edges with similar direction and velocity form a
   circle. A corner that no edge explains starts a row of alpha; three sightings in line make a rebel edge.
 * **Square.** Couples of similar circles become a square.
-* **Back to Line.** A circle or square with the highest trust becomes a region of psi. In the next frame its corners are ignored.
-
-{frames}
+* **Back to Line.** A circle or square with the highest trust becomes a region of psi. In the next frame its corners are ignored:
+  {lab.rows[14]["ignored_corners"]} of {lab.rows[14]["corners"]} in frame 14.
 
 ## Memory
 
-The paper counts the items of the filter: edges, circles and squares. It compares them with the corners of the last 5 frames (laboratory) and
-of the last 8 (cars). It reports about 100 items for the laboratory, less than half of the corners of 5 frames, and about 360 for cars, with
-thousands in 8 frames. Here:
+The paper compares the items of the filter (edges, circles and squares) with the corners of the last frames. It reports about 100 items for
+the laboratory, less than half of the corners of 5 frames, and about 360 for cars, with thousands of corners in 8 frames. Here:
 
 {memory}
 
-Counted in items, the filter remembers less than 5 or 8 frames of corners, as the paper says. But an item holds six numbers in the paper's
-notation (two for the place, speed, direction, radius, trust; a square has seven), and a corner two. Counted in numbers, the paper's filter needs
-about as much as 5 frames of corners.
+There are fewer items than corners of 5 or 8 frames, as the paper says. But an item holds six numbers in the paper's notation (two for the
+place, speed, direction, radius, trust; a square has seven), and a corner two. So the paper's filter stores about as many numbers as 5 frames
+of corners.
 
 ## psi
 
 {psi}
 
-psi spares the Circle expert the ignored corners, and some of its time. It does not reduce the items, since ignored edges are kept and wait. The cost: the
-filter looks at nothing inside a region in that frame, so a mover there breaks its chain of three sightings, and fewer rebels are found.
+psi saves time, as corners are ignored. It does not reduce the items, since their edges are kept. A mover inside a region is not seen in that
+frame, so its chain of three sightings breaks, and fewer rebels are found.
 
 ## What the rules reach by truth
 
-The paper shows pictures and counts items. It gives no recall, no precision and no time. By the truth of the simulation (one sample a pixel):
+The paper gives no recall, no precision and no time. By the truth of the simulation (one sample a pixel):
 
 {truth}
 
@@ -229,29 +221,22 @@ The paper shows pictures and counts items. It gives no recall, no precision and 
 
 *Frame 20 of `crossing.yaml`: above with `filter.preset=lab`, below the default. Cyan: boxes of movers by truth.*
 
-In 60 worlds of the split `test`, F1 is in the row `lcs:lab` of [the results](../../tools/comparators/RESULTS.md).
-
-**Why the paper reported success.** Its measures are the number of items and the look of single frames. Both are good: items are few, and
-circles and squares lie on objects. Three of its rules keep the recall of rebels low, which only truth shows:
+**Why the paper reported success.** Its measures are the number of items and single pictures. Both are good: items are few, and circles and
+squares lie on objects. Only truth shows that three of its rules keep the recall of rebels low:
 
 * A rebel needs three sightings in line, each off the motion field by a margin. Slow movers and short sightings never get there.
-* The rule for an edge's velocity does not settle at the true value (`PaperVelocity` tests; [EQUATIONS.md](../EQUATIONS.md)). Edges at other
-  depths than Z_ref lose trust within three frames, and their corners start new rows. Alone it costs little: step 2 below.
-* Corners are told apart by place alone. Where corners are dense, a corner of a mover supports a static edge nearby.
+* An edge's velocity does not settle at the true value ([EQUATIONS.md](../EQUATIONS.md#5-normal-edges)). Edges at other depths than Z_ref
+  lose trust within three frames, and their corners start new rows. Alone this costs little: step 2 below.
+* Corners are distinguished by place alone. Where corners are dense, a corner of a mover supports a static edge nearby.
 
 {kept_section(PAGE.read_text())}
 
 ## What of the paper is in the default
 
-| of the paper | in the default filter |
-|---|---|
-| order Line, Circle, Square; edges, rebels, circles, squares | kept |
-| motion field, exact rotation, focus of expansion | kept |
-| ranks of trust | kept |
-| psi, lambda | left out: each corner is looked at in each frame |
-| xi, alpha | replaced by log odds of two hypotheses, static and moving, with signatures for the association |
-| circles by direction and velocity | replaced by groups that one plane explains |
-| squares by couples of circles | replaced by the box of a circle |
+* Kept: the order Line, Circle, Square; edges, rebels, circles, squares; the motion field; the ranks of trust.
+* Left out: psi and lambda ([what each would save and cost](../HISTORY.md#psi-and-lambda)).
+* Replaced: xi and alpha by log odds of two hypotheses, static and moving, with signatures for the association; circles by groups that one
+  plane explains; squares by the box of a circle.
 
 [MODEL.md](../MODEL.md) has the default's formulas, [ABLATION.md](../ABLATION.md) the contribution of each part.
 """
