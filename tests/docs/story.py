@@ -175,7 +175,7 @@ Why they differ:
 * **Simulation.** The corners of the simulated room are steadier, so that fewer edges are made anew.
 * **Rules.** Where the paper's text and its authors' program differ, `lab` follows the text ([EQUATIONS.md](../EQUATIONS.md)). Its items
   fall later, since its edges live longer.
-* **Cars.** The paper's pictures and their contrast are not published. So `street_drive.yaml` has other corners.
+* **Cars.** The paper's pictures are not published, so `street_drive.yaml` has other corners.
 
 ## Line, Circle, Square: one run
 
@@ -200,9 +200,8 @@ the laboratory, less than half of the corners of 5 frames, and about 360 for car
 
 {memory}
 
-There are fewer items than corners of 5 or 8 frames, as the paper says. But an item holds six numbers in the paper's notation (two for the
-place, speed, direction, radius, trust; a square has seven), and a corner two. So the paper's filter stores about as many numbers as 5 frames
-of corners.
+There are fewer items than corners of 5 or 8 frames, as the paper says. But in the paper's notation an item holds six numbers (a square
+seven), and a corner two. So the paper's filter stores about as many numbers as 5 frames of corners.
 
 ## psi
 
