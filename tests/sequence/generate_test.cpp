@@ -427,6 +427,30 @@ TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(files_in(folder()), std::set<std::string>{"thesis.tex"});
 }
 
+TEST_F(Generate, TwoFloorsAtOneHeightThatThePictureMixesAreNamedByTheirLines) {
+  test::write(home_.path() / "floors.xml", R"(<mujoco><asset>
+    <texture name="fine" type="2d" builtin="checker" rgb1=".2 .3 .4" rgb2=".1 .2 .3" width="64" height="64"/>
+    <texture name="light" type="2d" builtin="checker" rgb1=".7 .6 .5" rgb2=".5 .4 .3" width="64" height="64"/>
+    <material name="fine" texture="fine" texuniform="true" texrepeat="2 2"/>
+    <material name="light" texture="light" texuniform="true" texrepeat="3 3"/></asset>
+    <worldbody><light pos="0 0 3" directional="true"/>
+    <geom name="floor" type="plane" size="0 0 .1" material="fine"/>
+    <geom name="carpet" type="plane" size="12 9 .1" material="light"/>
+    <body name="crate" pos="3 .5 .3"><geom type="box" size=".3 .3 .3"/></body></worldbody></mujoco>)");
+  test::write(home_.path() / "floors.yaml",
+              "scene: floors.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.5 m/s}\n"
+              "camera: {size: [320, 240]}\nimage: {noise: none}\n");
+  const CommandResult result =
+      run_lcs({"generate", "floors.yaml", "--out", folder().string(), "--formats", "depth"},
+              {.folder = home_.path()});
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* words :
+       {"do not look as they do where the flow leads; the truth does not agree", "perhaps as ",
+        "floors.xml:7: geom 'floor'", "floors.xml:8: geom 'carpet'", "move one by a millimetre"}) {
+    EXPECT_NE(result.err.find(words), std::string::npos) << words << "\n" << result.err;
+  }
+}
+
 TEST_F(Generate, SettingsThatTheFilterDoesNotTakeAreRefusedBeforeTheFolderIsMade) {
   for (const char* setting : {"filter.gap=1", "filter.circle.mu_0=20", "filter.circle.gap=wide"}) {
     const CommandResult result = generate({"--out", folder(), "--set", setting});

@@ -231,7 +231,16 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
     FrameOutput output;
     Agreements checks;
     for (std::size_t i = 0; i < makers.size(); ++i) {
-      makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
+      try {
+        makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
+      } catch (const TruthError& error) {
+        const auto& coplanar = rig.warnings().of(sim::Warning::coplanar_faces);
+        throw TruthError(fmt::format(
+            "{}{}", error.what(),
+            coplanar.count > 0 ? ", perhaps as " + coplanar.first
+                               : ", which is a fault of this program: please report it with the "
+                                 "scenario"));
+      }
     }
     folder.add(now.front().index, output, checks);
     on_frame(++whole);
