@@ -139,17 +139,30 @@ INSTANTIATE_TEST_SUITE_P(Cameras, Panels,
                          testing::Values(cv::Size(640, 480), cv::Size(1280, 960),
                                          cv::Size(400, 300)));
 
+TEST(PanelColours, OfTwoMeaningsDiffer) {
+  const std::vector<cv::Scalar> all = {
+      colour::kCorner,      colour::kIgnored,     colour::kCollector,    colour::kPredicted,
+      colour::kNormalEdge,  colour::kRebel,       colour::kNormalCircle, colour::kSquare,
+      colour::kMovingTruth, colour::kStaticTruth, colour::kMissed,       colour::kFalse};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(cv::norm(all[i], all[j], cv::NORM_INF), 64)
+          << i << " " << j;  // what `shows` takes as the same
+    }
+  }
+}
+
 TEST_P(Panels, ShowTheDimmedImageWhereThereIsNothing) {
   const cv::Mat3b drawn = scene_.draw(sheet_);
   for (const Panel panel : kAllPanels) EXPECT_TRUE(is_bare(drawn, sheet_, panel, {200, 150}));
 }
 
-TEST_P(Panels, CornersAreYellowAndIgnoredOnesRedInTheFirstPanelOnly) {
+TEST_P(Panels, CornersAreYellowAndIgnoredOnesOliveInTheFirstPanelOnly) {
   scene_.corners = {{100, 100}, {200, 150}, {250, 250}};
   scene_.verdicts = {Verdict::normal, Verdict::ignored, Verdict::rebel};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {100, 100}, colour::kCorner));
-  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {200, 150}, colour::kIgnoredCorner));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {200, 150}, colour::kIgnored));
   EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {250, 250}, colour::kCorner));
   for (const Panel panel : {Panel::edges, Panel::circles, Panel::squares}) {
     EXPECT_TRUE(is_bare(drawn, sheet_, panel, {100, 100}));
@@ -170,19 +183,19 @@ TEST_P(Panels, LegendsNameOnlyWhatThereIs) {
                        [&](const cv::Vec3b& pixel) { return difference(pixel, colour) < 8; });
   };
   EXPECT_TRUE(names(Panel::corners, colour::kCorner));
-  EXPECT_FALSE(names(Panel::corners, colour::kIgnoredCorner));
-  EXPECT_FALSE(names(Panel::circles, colour::kIgnoreRegion));
-  EXPECT_FALSE(names(Panel::squares, colour::kIgnoreRegion));
+  EXPECT_FALSE(names(Panel::corners, colour::kIgnored));
+  EXPECT_FALSE(names(Panel::circles, colour::kIgnored));
+  EXPECT_FALSE(names(Panel::squares, colour::kIgnored));
   scene_.verdicts = {Verdict::ignored};
   scene_.paper.ignored = {
       {.shape = IgnoreRegion::Shape::circle, .location = {300, 100}, .size = {40, 0}},
       {.shape = IgnoreRegion::Shape::rectangle, .location = {250, 150}, .size = {30, 60}}};
-  EXPECT_TRUE(names(Panel::corners, colour::kIgnoredCorner));
-  EXPECT_TRUE(names(Panel::circles, colour::kIgnoreRegion));
-  EXPECT_TRUE(names(Panel::squares, colour::kIgnoreRegion));
+  EXPECT_TRUE(names(Panel::corners, colour::kIgnored));
+  EXPECT_TRUE(names(Panel::circles, colour::kIgnored));
+  EXPECT_TRUE(names(Panel::squares, colour::kIgnored));
 }
 
-TEST_P(Panels, CollectorsAreWhiteCirclesAtTheirRadius) {
+TEST_P(Panels, CollectorsArePinkCirclesAtTheirRadius) {
   scene_.paper.collectors = {{.location = {200, 150}, .radius = 50}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
   for (const Vec2& on : {Vec2(250, 150), Vec2(150, 150), Vec2(200, 100), Vec2(200, 200)}) {
@@ -193,7 +206,7 @@ TEST_P(Panels, CollectorsAreWhiteCirclesAtTheirRadius) {
   EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {250, 150}));
 }
 
-TEST_P(Panels, EdgesAreBlueOrRedWithTheirPredictionYellow) {
+TEST_P(Panels, EdgesAreBlueOrRedWithTheirPredictionPale) {
   scene_.layers.normal_edges = {edge_at({100, 100}, {130, 100})};
   scene_.layers.rebel_edges = {edge_at({100, 200}, {130, 200})};
   const cv::Mat3b drawn = scene_.draw(sheet_);
@@ -209,7 +222,7 @@ TEST_P(Panels, EdgesAreBlueOrRedWithTheirPredictionYellow) {
   }
 }
 
-TEST_P(Panels, CirclesAreGreenOrRedAndCircularIgnoranceYellow) {
+TEST_P(Panels, CirclesAreGreenOrRedAndCircularIgnoranceOlive) {
   scene_.layers.normal_circles = {circle_at({100, 100}, 40)};
   scene_.layers.rebel_circles = {circle_at({200, 100}, 40)};
   scene_.paper.ignored = {
@@ -217,14 +230,14 @@ TEST_P(Panels, CirclesAreGreenOrRedAndCircularIgnoranceYellow) {
   const cv::Mat3b drawn = scene_.draw(sheet_);
   EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {100, 140}, colour::kNormalCircle));
   EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {200, 140}, colour::kRebel));
-  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {300, 140}, colour::kIgnoreRegion));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {300, 140}, colour::kIgnored));
   for (const double x : {100.0, 200.0, 300.0}) {
     EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {x, 100}));
     EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {x, 140}));
   }
 }
 
-TEST_P(Panels, SquaresAreMagentaAndRectangularIgnoranceYellow) {
+TEST_P(Panels, SquaresAreWhiteAndRectangularIgnoranceOlive) {
   Square square;
   square.location = {100, 150};
   square.half_size = {30, 60};
@@ -234,7 +247,7 @@ TEST_P(Panels, SquaresAreMagentaAndRectangularIgnoranceYellow) {
   const cv::Mat3b drawn = scene_.draw(sheet_);
   for (const Vec2& on : {Vec2(-30, 0), Vec2(30, 0), Vec2(0, -60), Vec2(0, 60)}) {
     EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, Vec2(100, 150) + on, colour::kSquare));
-    EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, Vec2(250, 150) + on, colour::kIgnoreRegion));
+    EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, Vec2(250, 150) + on, colour::kIgnored));
   }
   EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {100, 150}));
   EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {250, 150}));

@@ -82,7 +82,7 @@ cv::Mat3b paint(const recording::FrameRecord& frame,
   if (of_squares) {
     for (const Square& square : frame.layers.squares) {
       cv::rectangle(picture, cut.at(square.location - square.half_size),
-                    cut.at(square.location + square.half_size), kFalse, 1);
+                    cut.at(square.location + square.half_size), kOutline, 2);
       std::vector<cv::Point> outline;
       for (const Vec2& vertex : square.outline.vertices()) outline.push_back(cut.at(vertex));
       if (!outline.empty()) {

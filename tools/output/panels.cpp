@@ -143,9 +143,9 @@ std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
     if (region.shape != shape) continue;
     ++drawn;
     if (shape == IgnoreRegion::Shape::circle) {
-      pen.circle(region.location, region.size.x(), colour::kIgnoreRegion, kLayerLine);
+      pen.circle(region.location, region.size.x(), colour::kIgnored, kLayerLine);
     } else {
-      pen.box(region.location - region.size, region.location + region.size, colour::kIgnoreRegion,
+      pen.box(region.location - region.size, region.location + region.size, colour::kIgnored,
               kLayerLine);
     }
   }
@@ -216,7 +216,7 @@ std::string tally(std::span<const Mark> marks) {
   return rest > 0 ? text + fmt::format(", {} not counted", rest) : text;
 }
 
-/// "; 92 rebel corners: 61 found, 24 false, 7 of unsure motion; 3 missed"; empty if the truth is
+/// "; movers' corners: 61 of 64 found; 24 false, 7 of unsure motion"; empty if the truth is
 /// unknown. Corners and edges differ in number: an edge may have lost its corner, and a corner seen
 /// once has no edge.
 std::string tally_of_corners(const PanelContent& content) {
@@ -225,18 +225,19 @@ std::string tally_of_corners(const PanelContent& content) {
   const auto rebels = std::ranges::count(content.verdicts, Verdict::rebel);
   const auto found = std::ranges::count(marks, Mark::found);
   const auto wrong = std::ranges::count(marks, Mark::wrong);
-  std::string text = fmt::format("; {} rebel corners: {} found, {} false", rebels, found, wrong);
+  std::string text = fmt::format("; movers' corners: {} of {} found; {} false", found,
+                                 found + std::ranges::count(marks, Mark::missed), wrong);
   if (const auto rest = rebels - found - wrong; rest > 0) {
     text += fmt::format(", {} of unsure motion", rest);  // by less than 1 px, or without a label
   }
-  return text + fmt::format("; {} missed", std::ranges::count(marks, Mark::missed));
+  return text;
 }
 
 /// Only where there is a region psi: the default filter makes none.
 void add_psi(std::size_t regions, PanelText& text) {
   if (regions == 0) return;
   text.legend.push_back(
-      {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", regions), Sample::line});
+      {colour::kIgnored, fmt::format("psi: {} not looked at", regions), Sample::line});
 }
 
 PanelText draw_corners(Pen& pen, const PanelContent& content) {
@@ -247,14 +248,13 @@ PanelText draw_corners(Pen& pen, const PanelContent& content) {
   for (std::size_t i = 0; i < content.corners_px.size(); ++i) {
     const bool skipped = content.verdicts[i] == Verdict::ignored;
     ignored += skipped;
-    pen.dot(content.corners_px[i].cast<double>(),
-            skipped ? colour::kIgnoredCorner : colour::kCorner);
+    pen.dot(content.corners_px[i].cast<double>(), skipped ? colour::kIgnored : colour::kCorner);
   }
   PanelText text{fmt::format("{} corners", content.corners_px.size() - ignored),
                  {{colour::kCorner, "corner"}}};
   if (ignored > 0) {
     text.caption += fmt::format(", {} ignored", ignored);
-    text.legend.push_back({colour::kIgnoredCorner, "ignored"});
+    text.legend.push_back({colour::kIgnored, "ignored"});
   }
   if (const std::size_t collectors = content.paper.collectors.size(); collectors > 0) {
     text.caption += fmt::format(", {} collectors (lambda)", collectors);
@@ -328,7 +328,7 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
             kLayerLine);
   }
   for (const Square& square : layers.squares) {
-    if (square.outline.count > 1) pen.polygon(square.outline.vertices(), colour::kOutline);
+    if (square.outline.count > 1) pen.polygon(square.outline.vertices(), colour::kSquare);
   }
   const std::size_t ignored =
       draw_ignored(pen, content.paper.ignored, IgnoreRegion::Shape::rectangle);
@@ -344,9 +344,9 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
       pen.name({box.min_px.x(), box.max_px.y()}, box.name, colour::kMissed);
     }
   }
-  PanelText text{fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks)),
-                 {{colour::kSquare, "square: an object, #id", Sample::line},
-                  {colour::kOutline, "outline of its edges", Sample::line}}};
+  PanelText text{
+      fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks)),
+      {{colour::kSquare, "square: an object, #id; thin: the outline of its edges", Sample::line}}};
   add_psi(ignored, text);
   if (!content.square_marks.empty()) {
     text.caption += fmt::format(", {} objects missed", missed);

@@ -19,19 +19,18 @@
 
 namespace lcs::output {
 
-/// \name Colours, BGR, as in the paper.
+/// \name Colours, BGR: each has one meaning in all panels, and marks also differ in shape. Corners,
+/// edges and circles are coloured as in the paper.
 ///@{
 namespace colour {
-inline const cv::Scalar kCorner{0, 230, 255};         ///< chi: yellow dots
-inline const cv::Scalar kIgnoredCorner{40, 40, 255};  ///< chi inside psi: red dots
-inline const cv::Scalar kCollector{255, 255, 255};    ///< lambda: thin white circles
-inline const cv::Scalar kPredicted{0, 230, 255};      ///< L~ of edges: small yellow squares
-inline const cv::Scalar kNormalEdge{255, 110, 30};    ///< E_n: small blue squares
-inline const cv::Scalar kRebel{40, 40, 255};          ///< E_r and C_r: red
-inline const cv::Scalar kNormalCircle{60, 220, 60};   ///< C_n: green
-inline const cv::Scalar kSquare{255, 0, 255};         ///< S: magenta
-inline const cv::Scalar kOutline{255, 255, 255};      ///< of a square's edges: thin white
-inline const cv::Scalar kIgnoreRegion{0, 230, 255};   ///< psi: yellow
+inline const cv::Scalar kCorner{0, 230, 255};        ///< chi: yellow dots
+inline const cv::Scalar kIgnored{0, 150, 150};       ///< psi and the corners in it: olive
+inline const cv::Scalar kCollector{190, 170, 255};   ///< lambda: thin pink circles
+inline const cv::Scalar kPredicted{235, 206, 180};   ///< L~ of edges: small pale squares
+inline const cv::Scalar kNormalEdge{255, 110, 30};   ///< E_n: small blue squares
+inline const cv::Scalar kRebel{40, 40, 255};         ///< E_r and C_r: red
+inline const cv::Scalar kNormalCircle{60, 220, 60};  ///< C_n: green
+inline const cv::Scalar kSquare{255, 255, 255};  ///< S: white boxes, thin outlines of their edges
 inline const cv::Scalar kMovingTruth{220, 220, 0};    ///< cyan
 inline const cv::Scalar kStaticTruth{150, 150, 150};  ///< grey
 inline const cv::Scalar kMissed{0, 150, 255};         ///< orange rings and boxes

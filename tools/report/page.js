@@ -299,8 +299,8 @@ function strip(event) {
 
 const FAMILIES = {
   rebels: ['Rebels', null],
-  circles: ['Circles with no mover under them', 'Rebel circles, in magenta; the rules shown belong to the false corners in them.'],
-  squares: ['Squares', 'Magenta boxes are squares, white their outlines; thin ones objects, the orange one is the object that is meant.'],
+  circles: ['Circles with no mover under them', 'Rebel circles, in violet; the rules shown belong to the false corners in them.'],
+  squares: ['Squares', 'White boxes are squares, with the outlines of their edges; thin ones objects, the orange one is the object that is meant.'],
 };
 
 /** Names each event of a run by its kind, object and first frame; alike ones are numbered. */
@@ -321,7 +321,7 @@ function eventList(scenario, run) {
   const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
-      mark('m3', '×', 'false (magenta cross)'), mark('m4', '□', 'where a mover really is (thin box)'),
+      mark('m3', '×', 'false (violet cross)'), mark('m4', '□', 'where a mover really is (thin box)'),
       mark('m4', '◇', 'radial: its image moves as the image of a static point may (diamond)')),
     ...Object.entries(FAMILIES).map(([family, [title, note]]) => {
       const events = run.events.filter((event) => event.family === family);
