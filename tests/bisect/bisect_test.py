@@ -10,12 +10,14 @@ import time
 import unittest
 from pathlib import Path
 
+import cv2
+
 LCS, BISECT = (Path(word).resolve() for word in sys.argv[1:3])
 
-# Calls so many of the first corners of each frame rebels, from frame 2 on.
+# Calls so many of the first corners of each frame rebels, from frame 2 on, and with noise more.
 DETECTOR = """
-import json, os, sys
-REBELS = 0
+import json, os, random, sys
+REBELS, NOISE = 0, 0
 open(os.path.join(os.environ["LCS_REPOSITORY"], "starts"), "a").write("x")
 source = sys.stdin.buffer
 size = json.loads(source.readline())["picture"]["bytes"]
@@ -23,7 +25,7 @@ print(json.dumps({"protocol": 1}), flush=True)
 for line in iter(source.readline, b""):
     frame = json.loads(line)
     source.read(size)
-    rebels = REBELS if frame["index"] >= 2 else 0
+    rebels = REBELS + random.randint(0, NOISE) if frame["index"] >= 2 else 0
     some = list(range(min(rebels, len(frame["corners"]["x"]))))
     print(json.dumps({"index": frame["index"], "rebel": some}), flush=True)
 """
@@ -37,6 +39,11 @@ frames: 6
 ego: {start: [-4 m, 0 m], speed: 0.5 m/s}
 camera: {size: [160, 120]}
 """
+
+
+def violet_pixels(picture):
+    blue, green, red = (picture[:, :, k].astype(int) for k in range(3))
+    return int(((red > 160) & (blue > 160) & (green < 120)).sum())
 
 
 class Bisect(unittest.TestCase):
@@ -55,19 +62,19 @@ class Bisect(unittest.TestCase):
         named = ("-c", "user.name=test", "-c", "user.email=test@example.org")
         subprocess.run(["git", *named, *words], cwd=self.repository, check=True)
 
-    def commits(self, changed_at, broken=()):
-        """Seven commits: from `changed_at` on three corners are rebels; `broken` cannot be built."""
+    def commits(self, changed_at, broken=(), rebels=3, noise=0):
+        """Seven commits: from `changed_at` on corners are rebels; `broken` cannot be built."""
         for k in range(7):
-            rebels = 3 if k >= changed_at else 0
-            (self.repository / "mine.py").write_text(DETECTOR.replace("= 0", f"= {rebels}"))
+            text = DETECTOR.replace("= 0, 0", f"= {rebels if k >= changed_at else 0}, {noise}")
+            (self.repository / "mine.py").write_text(text)
             (self.repository / "built").write_text("1" if k in broken else "0")
             (self.repository / "notes").write_text(str(k))
             self.git("add", "mine.py", "built", "notes")
             self.git("commit", "--quiet", "--message", f"change {k}")
 
-    def words(self, *more, ends=("HEAD~6", "HEAD")):
-        return [BISECT, "--frames", "--repository", self.repository, "--build", "exit $(cat built)",
-                "--out", self.home / "found", *ends, self.home / "boxes.yaml", "--seeds", "1",
+    def words(self, *more, ends=("HEAD~6", "HEAD"), by=("--frames",), seeds=1):
+        return [BISECT, *by, "--repository", self.repository, "--build", "exit $(cat built)",
+                "--out", self.home / "found", *ends, self.home / "boxes.yaml", "--seeds", str(seeds),
                 "--detector-command", "python3 mine.py", *more]  # fmt: skip
 
     def bisect(self, *more, **options):
@@ -86,6 +93,30 @@ class Bisect(unittest.TestCase):
         self.assertIn("is the first commit that differs: change 4\n", out)
         self.assertIn("boxes seed 1: frame 2 (t = 0.200 s) is the first of 4 that differ", out)
         self.assertIn(" px: normal -> rebel\n", out)
+        answer = (self.home / "found/answer.md").read_text()
+        self.assertIn("is the first commit that differs: change 4\n", answer)
+        self.assertIn("![frame 2](frames/before.jpg) | ![frame 2](frames/after.jpg)", answer)
+        before, after = (cv2.imread(str(self.home / "found/frames" / name))
+                         for name in ("before.jpg", "after.jpg"))  # fmt: skip
+        self.assertEqual(before.shape, after.shape)
+        # Rebels where nothing moves have violet crosses.
+        self.assertGreater(violet_pixels(after), violet_pixels(before) + 20)
+
+    def test_tells_a_change_from_the_noise_of_a_detector(self):
+        self.commits(changed_at=4, rebels=30, noise=2)
+        code, _, err = self.bisect()
+        self.assertEqual(code, 2)
+        self.assertIn("HEAD~6 differs from itself in another run: different: 1 of 1 run", err)
+        self.assertIn("repeat the suites by --repeat", err)
+        shutil.rmtree(self.home / "found")
+        self.git("worktree", "prune")
+        code, out, err = self.bisect("--repeat", "3", by=(), seeds=3)
+        self.assertEqual(code, 0, err)
+        self.assertIn("is the first commit that differs: change 4\n", out)
+        self.assertIn("3 of 3 suites differ", err)
+        self.assertIn("0 of 3 suites differ", err)
+        self.assertIn("takes 1 to 99", self.bisect("--repeat", "0", by=())[2])
+        self.assertIn("--repeat is for figures", self.bisect("--repeat", "2")[2])
 
     def test_skips_a_commit_that_cannot_be_built(self):
         self.commits(changed_at=5, broken=[3])
@@ -131,8 +162,9 @@ class Bisect(unittest.TestCase):
         code, out, err = self.bisect()
         self.assertEqual(code, 0, err)
         self.assertIn("differs: change 2\n", out)
-        # Both ends and three commits between are run once, and one that was ended perhaps again.
-        self.assertLessEqual(self.starts(), 6)
+        # The good end is run twice, the other and three commits between once, and one that was
+        # ended perhaps again.
+        self.assertLessEqual(self.starts(), 7)
 
 
 if __name__ == "__main__":

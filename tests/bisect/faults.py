@@ -58,10 +58,11 @@ def run(*words, cwd=None, check=True, env=None):
 
 
 class Clone:
-    """A scratch clone with a history of commits that change nothing, and a build."""
+    """A scratch clone with a history of commits that change nothing, and a build. Its path is as long
+    as that of the tree of tools/bisect, so that a cache of the compiler serves both."""
 
     def __init__(self, repository, work):
-        self.folder = work / "clone"
+        self.folder = work / "clone/tree"
         if not self.folder.exists():
             run("git", "clone", "--quiet", repository, self.folder)
             (self.folder / ".mujoco").symlink_to(repository / ".mujoco")

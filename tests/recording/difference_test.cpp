@@ -63,7 +63,7 @@ TEST_F(FirstDifference, NamesTheFrameTheColumnsAndTheCornersWithBothBeliefs) {
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->frame, 1);
   EXPECT_EQ(found.first->t_ns, 100'000'000);
-  EXPECT_EQ(found.first->what, (std::vector<std::string>{"corners/reason/verdict", "log_odds"}));
+  EXPECT_EQ(found.first->parts, (std::vector<std::string>{"corners/reason/verdict", "log_odds"}));
   ASSERT_EQ(found.first->corners.size(), 2u) << "the corner in the middle is equal";
   const CornerDifference &first = found.first->corners[0], &second = found.first->corners[1];
   EXPECT_EQ(first.place_px, Eigen::Vector2f(50, 60)) << "another verdict comes first";
@@ -78,7 +78,7 @@ TEST_F(FirstDifference, ACornerOfOnlyOneSideHasOneBelief) {
   after[0].corners_px[1].x() += 1;
   const Difference found = difference(frames(), after);
   ASSERT_TRUE(found.first);
-  EXPECT_EQ(found.first->what, std::vector<std::string>{"corners/x"});
+  EXPECT_EQ(found.first->parts, std::vector<std::string>{"corners/x"});
   ASSERT_EQ(found.first->corners.size(), 2u);
   EXPECT_EQ(found.first->corners[0].after, "no corner");
   EXPECT_EQ(found.first->corners[1].before, "no corner");
@@ -91,7 +91,7 @@ TEST_F(FirstDifference, AnOtherTruthAndAnOtherLayerAreNamed) {
   const Difference found = difference(frames(), after);
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->frame, 2);
-  EXPECT_EQ(found.first->what, (std::vector<std::string>{"squares", "truth/corners/depth_m"}));
+  EXPECT_EQ(found.first->parts, (std::vector<std::string>{"squares", "truth/corners/depth_m"}));
   EXPECT_TRUE(found.first->corners.empty());
 }
 
@@ -103,7 +103,7 @@ TEST_F(FirstDifference, ARecordingThatEndsBeforeDiffersFromThere) {
   EXPECT_EQ(found.differing, 1);
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->frame, 2);
-  EXPECT_EQ(found.first->what, std::vector<std::string>{"frame"});
+  EXPECT_EQ(found.first->parts, std::vector<std::string>{"frame"});
 }
 
 }  // namespace

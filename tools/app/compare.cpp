@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <map>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string_view>
 
+#include "sim/pictures/picture_file.h"
 #include "tools/app/suite_end.h"
 #include "tools/files/output.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/output/result.h"
 #include "tools/recording/recording_io.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/merge_request.h"
 #include "tools/suite/plan.h"
 
@@ -70,9 +75,50 @@ std::map<std::string, fs::path> runs_in(const std::string& path) {
   return runs;
 }
 
+/// Writes the panels of a frame of a run, on grey if the run kept no pictures.
+void write_panels(const fs::path& run, const recording::FrameRecord& frame, const fs::path& file) {
+  const recording::RunInfo info = recording::RecordingReader(run).run();
+  if (!info.camera) throw std::runtime_error(fmt::format("{} has no camera.json", run.string()));
+  const cv::Size size_px(info.camera->width_px, info.camera->height_px);
+  cv::Mat3b image(size_px, cv::Vec3b(96, 96, 96));
+  if (fs::exists(run / output::kPicturesFile)) {
+    const output::FramePictures pictures(run / output::kPicturesFile, size_px);
+    double scale = 1;
+    cv::resize(pictures.at(static_cast<std::size_t>(frame.index), scale), image, size_px);
+  }
+  const cv::Mat3b sheet = output::painted(output::PanelSheet(size_px), info, frame, image);
+  files::write_file(file, sim::encode_jpeg(sheet, 85));
+}
+
+/// The summary of the first run that differs.
+void write_summary(const CompareRequest& request, const ComparedFrames& compared) {
+  files::Output folder(request.markdown,
+                       {suite::kSummaryFile, suite::kBeforePicture, suite::kAfterPicture});
+  std::string text = fmt::format("### {}\n", compared.line);
+  const auto run = std::ranges::find_if(
+      compared.runs, [](const RunFrames& each) { return each.difference.first.has_value(); });
+  if (run != compared.runs.end()) {
+    constexpr std::size_t kMostCorners = 20;
+    text += fmt::format("\n```\n{}```\n\n", first_frame_text(*run, kMostCorners));
+    const recording::FrameDifference& first = *run->difference.first;
+    const auto picture = [&](const fs::path& run_folder, const char* name,
+                             const std::optional<recording::FrameRecord>& frame) {
+      if (!frame) return std::string("the run has ended");
+      write_panels(run_folder, *frame, folder.staging() / name);
+      return suite::picture_link(first.frame, name, request.pictures_at);
+    };
+    text += fmt::format("| before | after |\n|---|---|\n| {} | {} |\n",
+                        picture(run->before, suite::kBeforePicture, first.before),
+                        picture(run->after, suite::kAfterPicture, first.after));
+  }
+  files::write_file(folder.staging() / suite::kSummaryFile, text);
+  folder.commit();
+}
+
 }  // namespace
 
-ComparedFrames compare_frames(const std::string& before, const std::string& after) {
+ComparedFrames compare_frames(const CompareRequest& request) {
+  const std::string &before = request.before, &after = request.after;
   const std::map<std::string, fs::path> was = runs_in(before), is = runs_in(after);
   ComparedFrames compared;
   for (const auto& [name, folder] : is) {
@@ -92,6 +138,17 @@ ComparedFrames compare_frames(const std::string& before, const std::string& afte
         "{} and {} have no run in common; give two runs, or two suites of the same scenarios",
         before, after));
   }
+  std::ptrdiff_t different = 0, frames = 0, differing = 0;
+  for (const RunFrames& run : compared.runs) {
+    different += run.difference.first.has_value();
+    frames += run.difference.frames;
+    differing += run.difference.differing;
+  }
+  compared.is_different = different > 0;
+  compared.line = fmt::format(
+      "{}: {} of {} differ, in {} of {}", compared.is_different ? "different" : "equal", different,
+      suite::counted(std::ssize(compared.runs), "run"), differing, suite::counted(frames, "frame"));
+  if (!request.markdown.empty()) write_summary(request, compared);
   return compared;
 }
 
@@ -100,7 +157,7 @@ std::string first_frame_text(const RunFrames& run, std::size_t most) {
   std::string text = fmt::format(
       "{}frame {} (t = {:.3f} s) is the first of {} that differ, of {}, in {}\n",
       run.name.empty() ? "" : run.name + ": ", first->frame,
-      static_cast<double>(first->t_ns) * 1e-9, differing, frames, fmt::join(first->what, ", "));
+      static_cast<double>(first->t_ns) * 1e-9, differing, frames, fmt::join(first->parts, ", "));
   const std::size_t shown = std::min(first->corners.size(), most);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [place_px, before, after] = first->corners[i];

@@ -44,13 +44,16 @@ struct RunFrames {
 struct ComparedFrames {
   std::vector<RunFrames> runs;       ///< those on both sides
   std::vector<std::string> missing;  ///< messages on runs of only one side
+  bool is_different = false;
+  std::string line;  ///< of the verdict
 };
 
 /// Compares the frames of two runs, or of the runs that two suites have in common.
-/// \param before, after folders of runs or suites.
+/// \param request with the folders of runs or suites, and whether and where to write a summary: of
+///   the first run that differs, its first frame, with the pictures of both sides.
 /// \throws std::runtime_error if a file cannot be read, a run was made without frames (`--keep`),
-///   or the two have no run in common.
-ComparedFrames compare_frames(const std::string& before, const std::string& after);
+///   or the two have no run in common. \throws OutputError
+ComparedFrames compare_frames(const CompareRequest& request);
 
 /// The first frame that differs, and a line for each of its corners that do, up to `most`.
 std::string first_frame_text(const RunFrames& run, std::size_t most);

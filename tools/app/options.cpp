@@ -345,8 +345,8 @@ Options options_of(CompareRequest& request) {
   all.add("--metric", "REGEX", &request.metric,
           "Only figures with this regular expression in their name");
   all.add("--markdown", "DIR", &request.markdown,
-          "Folder for summary.md, for the discussion of a merge request, and two pictures of the "
-          "event that grew most",
+          "Folder for summary.md, for the discussion of a merge request, and two pictures: of the "
+          "event that grew most, or with --frames of the first frame that differs",
           {.is_output = true});
   all.add("--pictures-at", "URL", &request.pictures_at,
           "Address where the pictures will be; beside summary.md if not given",

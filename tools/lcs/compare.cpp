@@ -59,28 +59,23 @@ ExitCode compare_frames(const CompareOptions& options) {
   app::CompareRequest plain;
   plain.before = options.request.before;
   plain.after = options.request.after;
+  plain.markdown = options.request.markdown;
+  plain.pictures_at = options.request.pictures_at;
   if (app::arguments_of(options.request) != app::arguments_of(plain)) {
-    throw std::invalid_argument("--frames compares all frames; only --all goes with it");
+    throw std::invalid_argument(
+        "--frames compares all frames; only --all and --markdown go with it");
   }
-  const auto [runs, missing] = app::compare_frames(plain.before, plain.after);
+  const app::ComparedFrames compared = app::compare_frames(plain);
   constexpr std::size_t kMostCorners = 20;
-  std::ptrdiff_t different = 0, frames = 0, differing = 0;
-  for (const app::RunFrames& run : runs) {
+  for (const app::RunFrames& run : compared.runs) {
     if (run.difference.first) {
       print_out("{}", app::first_frame_text(run, options.all ? SIZE_MAX : kMostCorners));
     }
-    different += run.difference.first.has_value();
-    frames += run.difference.frames;
-    differing += run.difference.differing;
   }
-  for (const std::string& what : missing) print_out("not compared: {}\n", what);
-  const std::string counts = fmt::format("{} of {} differ, in {} of {}", different,
-                                         suite::counted(std::ssize(runs), "run"), differing,
-                                         suite::counted(frames, "frame"));
-  const suite::Light light =
-      different == 0 && missing.empty() ? suite::Light::green : suite::Light::red;
-  print_out("{}\n", coloured((different > 0 ? "different: " : "equal: ") + counts, light));
-  return different > 0 ? kRegressed : missing.empty() ? kFine : kError;
+  for (const std::string& name : compared.missing) print_out("not compared: {}\n", name);
+  const bool is_equal = !compared.is_different && compared.missing.empty();
+  print_out("{}\n", coloured(compared.line, is_equal ? suite::Light::green : suite::Light::red));
+  return compared.is_different ? kRegressed : compared.missing.empty() ? kFine : kError;
 }
 
 ExitCode compare(const CompareOptions& options) {

@@ -19,21 +19,21 @@ namespace {
 
 /// Adds the names of the members that differ between two lines; of a list, of few columns too.
 void add_names(const std::string& before, const std::string& after, const std::string& prefix,
-               std::vector<std::string>& what) {
+               std::vector<std::string>& parts) {
   std::map<std::string, std::set<std::string>> columns;
   const auto patch = nlohmann::json::diff(files::parse_json<nlohmann::json>(before),
                                           files::parse_json<nlohmann::json>(after));
   for (const nlohmann::json& change : patch) {
     const auto path = change.at("path").get<std::string>();  // such as "/corners/verdict/17"
     static const std::regex kNames("/([^/]+)(/[a-z][^/]*)?.*");
-    std::smatch parts;
-    if (std::regex_match(path, parts, kNames)) columns[parts.str(1)].insert(parts.str(2));
+    std::smatch names;
+    if (std::regex_match(path, names, kNames)) columns[names.str(1)].insert(names.str(2));
   }
   constexpr std::size_t kMostColumns = 3;
   for (const auto& [name, own] : columns) {
     const bool is_few = own.size() <= kMostColumns;
     const std::string listed = is_few ? fmt::format("{}", fmt::join(own, "")) : "";
-    what.push_back(fmt::format("{}{}{}", prefix, name, listed));
+    parts.push_back(fmt::format("{}{}{}", prefix, name, listed));
   }
 }
 
@@ -102,12 +102,14 @@ Difference difference_of(const std::filesystem::path& before, const std::filesys
     first.frame = frame.index;
     first.t_ns = frame.t_ns;
     if (was.is_there && is.is_there) {
-      add_names(was.layers, is.layers, "", first.what);
-      add_names(was.truth, is.truth, "truth/", first.what);
+      add_names(was.layers, is.layers, "", first.parts);
+      add_names(was.truth, is.truth, "truth/", first.parts);
       first.corners = corners_of(was.frame, is.frame);
     } else {
-      first.what.emplace_back("frame");
+      first.parts.emplace_back("frame");
     }
+    if (was.is_there) first.before = was.frame;
+    if (is.is_there) first.after = is.frame;
   }
   return found;
 }

@@ -24,9 +24,10 @@ struct FrameDifference {
   std::int64_t t_ns = 0;  ///< time of the frame in the first recording that has it
   /// All that differs, as named in layers.jsonl and truth.jsonl, up to three columns of a list:
   /// such as "corners/reason/verdict", "squares", "truth/objects"; "frame" if one recording ends.
-  std::vector<std::string> what;
+  std::vector<std::string> parts;
   /// Those with another verdict first, each by row and column.
   std::vector<CornerDifference> corners;
+  std::optional<FrameRecord> before, after;  ///< absent after the end of a recording
 };
 
 struct Difference {

@@ -124,8 +124,7 @@ std::string picture(const fs::path& folder, const std::string& name,
   const scoring::EventView* view = view_near(*event, frame);
   if (view == nullptr) return "the suite keeps no pictures";
   files::write_file(folder / name, bytes_of(view->jpeg_base64));
-  return fmt::format("![frame {}]({}{}{})", view->frame, pictures_at,
-                     pictures_at.empty() || pictures_at.ends_with('/') ? "" : "/", name);
+  return picture_link(view->frame, name, pictures_at);
 }
 
 std::string event_text(const fs::path& folder, const Grown& grown, const std::string& pictures_at) {
@@ -182,6 +181,11 @@ std::string remarks_text(const SuiteVerdict& verdict) {
 }
 
 }  // namespace
+
+std::string picture_link(int frame, const std::string& name, const std::string& pictures_at) {
+  return fmt::format("![frame {}]({}{}{})", frame, pictures_at,
+                     pictures_at.empty() || pictures_at.ends_with('/') ? "" : "/", name);
+}
 
 void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
                          const SuiteInFolder& after, const Comparison& comparison,

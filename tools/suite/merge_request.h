@@ -23,4 +23,7 @@ void write_merge_request(const std::filesystem::path& folder, const SuiteInFolde
                          const SuiteInFolder& after, const Comparison& comparison,
                          const SuiteVerdict& verdict, const std::string& pictures_at);
 
+/// Markdown of a frame's picture. \param pictures_at as above.
+std::string picture_link(int frame, const std::string& name, const std::string& pictures_at);
+
 }  // namespace lcs::suite
