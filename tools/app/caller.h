@@ -3,9 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tools/suite/suite_run.h"
 
 namespace lcs::app {
 
@@ -42,6 +45,17 @@ class Caller {
                                              [[maybe_unused]] const std::string& unit) {
     return std::make_unique<Progress>();
   }
+
+  /// \name Of a suite while it runs.
+  ///@{
+  /// \param detectors names, the suite's own first. \param runs the result of each detector.
+  virtual void finished(const suite::SuiteProgress& /*progress*/, const std::string& /*scenario*/,
+                        const std::vector<std::string>& /*detectors*/,
+                        std::span<const suite::RunResult* const> /*runs*/) {}
+  virtual void show(const suite::SuiteProgress& /*progress*/) {}
+  /// Removes the displayed progress.
+  virtual void wipe() {}
+  ///@}
 };
 
 }  // namespace lcs::app

@@ -20,6 +20,7 @@
 #include "tools/scoring/criteria.h"
 #include "tools/suite/parts.h"
 #include "tools/suite/sequential.h"
+#include "tools/suite/suite_run.h"
 
 namespace lcs::app {
 namespace {
@@ -281,8 +282,7 @@ Texts child_of(const SuiteRequest& request, const suite::PlannedScenario& planne
 /// A suite while it is made.
 class Making {
  public:
-  Making(const SuiteRequest& request, Caller& caller, SuiteWatch& watch)
-      : request_(request), caller_(caller), watch_(watch) {}
+  Making(const SuiteRequest& request, Caller& caller) : request_(request), caller_(caller) {}
 
   SuiteMade made() {
     plan();
@@ -302,14 +302,14 @@ class Making {
           is_sequential(baseline) ? run_looks(folder, *baseline) : run_all(folder);
       suite::SuiteResult own = std::move(others.front());
       others.erase(others.begin());
-      watch_.wipe();
+      caller_.wipe();
       own.recorded = recorded;
       write_how_made(folder, request_, provenance_);
       if (of_worlds(request_)) write_sheets(folder.staging(), now_, own, caller_);
       return finish_suite(folder, request_.place, std::move(own), std::move(others), baseline,
                           caller_);
     } catch (const Interrupted&) {
-      watch_.wipe();
+      caller_.wipe();
       if (whole_ == 0) throw;
       throw Interrupted(fmt::format(
           "interrupted; {} of {} runs are kept, and the same command goes on from there", whole_,
@@ -377,13 +377,13 @@ class Making {
              [&](const auto& done, const std::string& scenario, const auto& runs) {
                whole_ = done.done;
                total_ = done.total;
-               watch_.finished(done, scenario, detectors, runs);
+               caller_.finished(done, scenario, detectors, runs);
              },
          .on_tick =
              [&](const suite::SuiteProgress& now) {
                total_ = now.total;
                caller_.check();
-               watch_.show(now);
+               caller_.show(now);
              }});
     caller_.check();
     for (suite::SuiteResult& result : results) {
@@ -452,7 +452,6 @@ class Making {
 
   const SuiteRequest& request_;
   Caller& caller_;
-  SuiteWatch& watch_;
   std::string own_;  ///< name of the suite's own detector
   SuitePlan planned_;
   std::vector<suite::PlannedScenario> now_;  ///< the runs to make now
@@ -470,8 +469,8 @@ SuitePlan plan_suite(const SuiteRequest& request, Caller& caller) {
                             : plan_scenarios(request, seeds, times);
 }
 
-SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) {
-  return Making(request, caller, watch).made();
+SuiteMade suite(const SuiteRequest& request, Caller& caller) {
+  return Making(request, caller).made();
 }
 
 }  // namespace lcs::app

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,6 @@
 #include "tools/app/suite_worlds.h"
 #include "tools/output/result.h"
 #include "tools/suite/plan.h"
-#include "tools/suite/suite_run.h"
 
 namespace lcs::app {
 
@@ -48,24 +46,10 @@ struct SuitePlan {
 /// The runs of a request. Missing worlds are drawn first. \throws as `suite::plan`.
 SuitePlan plan_suite(const SuiteRequest& request, Caller& caller);
 
-/// What a caller may show of a suite while it runs. The defaults do nothing.
-class SuiteWatch {
- public:
-  virtual ~SuiteWatch() = default;
-  /// \param detectors names, the suite's own first. \param runs the result of each detector.
-  virtual void finished([[maybe_unused]] const suite::SuiteProgress& progress,
-                        [[maybe_unused]] const std::string& scenario,
-                        [[maybe_unused]] const std::vector<std::string>& detectors,
-                        [[maybe_unused]] std::span<const suite::RunResult* const> runs) {}
-  virtual void show(const suite::SuiteProgress& /*progress*/) {}
-  /// Removes the displayed progress.
-  virtual void wipe() {}
-};
-
 /// \throws files::OutputError, std::exception, and an exception of `caller.check`; then no suite is
 ///   written, and an earlier suite is unchanged. Finished runs are kept, and the same request goes
 ///   on from there.
-SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch);
+SuiteMade suite(const SuiteRequest& request, Caller& caller);
 
 /// Joins the parts of a suite that were made with `SuiteRequest::shard`.
 struct MergeRequest {

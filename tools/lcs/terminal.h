@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -48,19 +49,33 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
 /// NO_COLOR (no-color.org) nor says that the terminal is dumb.
 std::string coloured(const std::string& text, suite::Light light);
 
-/// Shows on stderr what a function of the library says, and ends it after a signal.
+/// Shows on stderr what a function of the library says, and ends it after a signal. Of a suite it
+/// shows a line per finished run, and on a terminal a status line.
 class Terminal : public app::Caller {
  public:
+  /// \param quiet prints only errors and warnings.
   explicit Terminal(bool quiet) : quiet_(quiet) {}
+  /// Erases the status line.
+  ~Terminal() override { Terminal::wipe(); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
   void check() override;
   void tell(const std::string& line) override { tools::tell(line); }
   void note(const std::string& line) override;
   void warn(const std::vector<std::string>& lines) override { tools::warn(lines); }
   std::unique_ptr<app::Progress> progress(const std::string& name, int total,
                                           const std::string& unit) override;
+  void finished(const suite::SuiteProgress& progress, const std::string& scenario,
+                const std::vector<std::string>& detectors,
+                std::span<const suite::RunResult* const> runs) override;
+  void show(const suite::SuiteProgress& progress) override;
+  void wipe() override;
 
  private:
   bool quiet_;
+  bool is_shown_ = false;  ///< the status line
+  std::chrono::steady_clock::time_point shown_{};
 };
 
 /// Flushes std::cout and stdout. \throws as `write_out`.

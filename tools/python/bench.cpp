@@ -35,7 +35,7 @@ using namespace py::literals;
 using app::Texts;
 
 /// Collects messages for Python, and ends the work after Ctrl-C.
-class PythonCaller : public app::Caller, public app::SuiteWatch {
+class PythonCaller : public app::Caller {
  public:
   explicit PythonCaller(py::object progress = py::none()) : progress_(std::move(progress)) {}
 
@@ -280,7 +280,7 @@ void bind_suites(py::module_& module) {
   define(
       module, {.takes_progress = true}, app::SuiteRequest{},
       [](const app::SuiteRequest& request, PythonCaller& caller) {
-        return dict_of(carry_out([&] { return app::suite(request, caller, caller); }), caller);
+        return dict_of(carry_out([&] { return app::suite(request, caller); }), caller);
       },
       R"(Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
