@@ -4,6 +4,7 @@
 
 #include "tools/app/run.h"
 #include "tools/lcs/command_line.h"
+#include "tools/suite/comparison.h"
 
 namespace lcs::tools {
 
@@ -21,5 +22,8 @@ Command tune_command();
 
 /// Prints the figures and the missed criteria of a run.
 ExitCode show_run(const app::RunMade& made, bool quiet);
+
+/// kRegressed, kError if nothing is judged, else kFine.
+ExitCode exit_code_of(suite::Finding finding);
 
 }  // namespace lcs::tools

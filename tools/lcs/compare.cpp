@@ -9,7 +9,6 @@
 #include "scenarios/input/message.h"
 #include "tools/app/compare.h"
 #include "tools/lcs/commands.h"
-#include "tools/lcs/suite_end.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/judgement.h"
 
