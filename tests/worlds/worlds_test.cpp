@@ -24,7 +24,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/app/world_folder.h"
+#include "tools/app/world.h"
 #include "tools/preview/sheet.h"
 
 namespace lcs::worlds {

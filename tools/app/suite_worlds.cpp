@@ -9,7 +9,6 @@
 #include "scenarios/load.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/app/world.h"
-#include "tools/app/world_folder.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/output/frame_pictures.h"

@@ -1,5 +1,6 @@
 /// \file
-/// Draws a scenario and its scene at random from a seed.
+/// Draws a scenario and its scene at random from a seed, into a folder: the scenario, the scene, a
+/// plan, textures and meshes.
 #pragma once
 
 #include <cstdint>
@@ -30,5 +31,16 @@ struct WorldMade {
 
 /// \throws files::OutputError, std::exception; then no world is written.
 WorldMade world(const WorldRequest& request, Caller& caller);
+
+/// The plan view in a world's folder.
+inline constexpr const char* kPlanFile = "plan.png";
+
+/// Writes NAME.yaml, scene.xml, plan.png, textures/ and meshes/ into a folder.
+/// \throws files::OutputError
+void write_world(const worlds::DrawnWorld& world, const std::filesystem::path& folder);
+
+/// Path of a world's stored scenario file in a folder of worlds; the name has a digest of the
+/// sources that draw it, its family and its seed.
+std::filesystem::path kept_world(const std::filesystem::path& folder, const worlds::Choice& choice);
 
 }  // namespace lcs::app
