@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <span>
 
+#include "scenarios/input/inputs_read.h"
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
@@ -13,7 +16,6 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"
-#include "tools/comparators/detectors.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 #include "tools/report/report_page.h"
@@ -22,6 +24,31 @@
 
 namespace lcs::app {
 namespace {
+
+/// Records the files that the words of a shell command name, such as a script. Files that a program
+/// reads by itself, and programs on the PATH, are not known.
+void note_files(const std::string& command) {
+  std::string word;
+  char quote = 0;
+  const auto end_word = [&] {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(word, error)) input::note_input(word);
+    word.clear();
+  };
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (quote != 0 ? c == quote : c == '\'' || c == '"') {
+      quote = quote != 0 ? 0 : c;
+    } else if (c == '\\' && quote != '\'' && i + 1 < command.size()) {
+      word += command[++i];
+    } else if (quote == 0 && std::strchr(" \t\n;&|<>()", c) != nullptr) {
+      end_word();
+    } else {
+      word += c;
+    }
+  }
+  end_word();
+}
 
 /// The source of the frames that the detectors process.
 struct Frames {
@@ -309,6 +336,15 @@ std::vector<scoring::Metrics> finish(const RunRequest& request, const scenario::
 }
 
 }  // namespace
+
+comparators::DetectorSpec spec_of(const DetectorChoice& choice) {
+  if (!choice.command.empty()) {
+    note_files(choice.command);
+    return comparators::spec_of_program(choice.name, {choice.command, choice.timeout_s});
+  }
+  if (!choice.detections.empty()) return comparators::spec_of_file(choice.name, choice.detections);
+  return comparators::spec_of(choice.name.empty() ? "lcs" : choice.name);
+}
 
 RunMade run(const RunRequest& request, Caller& caller) {
   std::vector<std::string> sets = request.sets;

@@ -12,12 +12,24 @@
 
 #include "scenarios/scenario.h"
 #include "tools/app/caller.h"
-#include "tools/app/detector_choice.h"
 #include "tools/app/option.h"
+#include "tools/comparators/detectors.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 
 namespace lcs::app {
+
+/// The detector that a request names.
+struct DetectorChoice {
+  std::string name;     ///< "": lcs, or a default name for a program or file
+  std::string command;  ///< of a detector program; "": no program
+  double timeout_s = comparators::Program{}.timeout_s;
+  std::string detections;  ///< CSV file or folder; "": none
+};
+
+/// The detector. Records the files that a detector's command names as inputs of this process.
+/// \throws std::invalid_argument as the `comparators::spec_of` functions do.
+comparators::DetectorSpec spec_of(const DetectorChoice& choice);
 
 /// Gets each frame of the video, until it returns false.
 using ShowFrame = std::function<bool(const cv::Mat3b& sheet)>;

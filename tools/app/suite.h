@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "tools/app/caller.h"
-#include "tools/app/detector_choice.h"
 #include "tools/app/option.h"
+#include "tools/app/run.h"
 #include "tools/app/suite_end.h"
 #include "tools/app/suite_worlds.h"
-#include "tools/output/result.h"
 #include "tools/suite/plan.h"
 
 namespace lcs::app {

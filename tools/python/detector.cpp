@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "tools/app/detector_choice.h"
+#include "tools/app/run.h"
 #include "tools/bench/timed.h"
 #include "tools/python/frame.h"
 #include "tools/python/guard.h"
