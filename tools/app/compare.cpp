@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "sim/pictures/picture_file.h"
-#include "tools/app/suite_end.h"
+#include "tools/app/suite.h"
 #include "tools/files/output.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/output/result.h"
