@@ -20,8 +20,8 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/calibration.h"
-#include "tools/sequence/flow_code.h"
 #include "tools/sequence/replay_settings.h"
+#include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
-#include "tools/sequence/flow_code.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/true_flow.h"
 

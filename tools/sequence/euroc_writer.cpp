@@ -4,7 +4,7 @@
 
 #include "tools/sequence/png.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/writers.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

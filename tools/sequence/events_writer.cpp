@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/writers.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -18,7 +18,7 @@
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
 #include "tools/sequence/true_flow.h"
-#include "tools/sequence/writers.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -9,7 +9,7 @@
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/replay_settings.h"
-#include "tools/sequence/writers.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

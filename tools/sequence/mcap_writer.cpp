@@ -7,7 +7,7 @@
 #include "tools/files/json_node.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/writers.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

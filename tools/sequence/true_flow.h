@@ -3,6 +3,7 @@
 /// depth and the poses of the camera and of its body.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 #include "sim/truth/truth.h"
@@ -32,5 +33,24 @@ struct Surfaces {
 /// body may have no pixel there, and the depth of the ground behind it may be like its own.
 TrueFlow true_flow(const sim::Optics& camera, const sim::FrameTruth& truth,
                    const cv::Mat1i& surface_id, const Surfaces& next);
+
+/// \name KITTI: u = (code - 2^15) / 64, in steps of 1/64 px up to 512 px.
+///@{
+inline constexpr float kKittiFlowScale = 64;
+inline constexpr float kKittiFlowZero = 32768;
+///@}
+
+/// Channels u, v, valid, in this order; all 0 if invalid or too large for the format.
+inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
+  // In double: a float with 16 integer bits has too few left for the rounding.
+  const double u = static_cast<double>(motion_px[0]) * kKittiFlowScale + kKittiFlowZero;
+  const double v = static_cast<double>(motion_px[1]) * kKittiFlowScale + kKittiFlowZero;
+  constexpr double kMost = 65535;
+  const bool fits = u >= 0 && u <= kMost && v >= 0 && v <= kMost;  // false for NaN
+  if (!is_valid || !fits) return {0, 0, 0};
+  // Positive and with few bits, so that adding a half is exact and rounds to the nearest.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
+  return {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
+}
 
 }  // namespace lcs::sequence

@@ -3,6 +3,7 @@
 /// of the files that all frames share.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -93,6 +94,10 @@ struct Writer {
 
 /// \throws input::Error if the sequence cannot have the format.
 using MakeWriter = Writer(const SequenceInfo& info);
+/// The writers, one for each format; those of like formats share a file.
+MakeWriter picture_writer, euroc_writer, kalibr_writer, kitti_writer, tum_writer, mcap_writer,
+    rpg_writer, dsec_writer, mot_writer, coco_writer, davis_writer, flow_writer, depth_writer,
+    landmarks_writer;
 
 /// A format that `lcs generate` writes.
 struct Format {
@@ -111,6 +116,25 @@ const std::vector<Format>& formats();
 
 /// \throws std::invalid_argument with the names of all formats.
 const Format& format(std::string_view name);
+
+/// A format that a Python script writes by a library. Its document has text in place of the bytes.
+struct Scripted {
+  std::string_view format;
+  std::string_view library;  ///< as a fact of the sequence
+  std::string_view file;     ///< path of the document, in a folder that the script makes
+  /// The script of this folder. Arguments: the document, the folder of the pictures if it
+  /// `takes_pictures`, the folder to make; or --version, to print the version of the library.
+  const char* script;
+  bool takes_pictures;
+};
+inline constexpr const char *kBagFile = "rosbag/rosbag.mcap", *kDsecFile = "dsec/events.h5";
+inline constexpr std::array<Scripted, 2> kScripted{
+    {{"mcap", "rosbags", kBagFile, "write_bag.py", true},
+     {"dsec", "h5py", kDsecFile, "write_events.py", false}}};
+
+/// Runs the script. \return its standard output. \throws std::runtime_error with its message if it
+/// failed, as without the library.
+std::string run_script(const std::string& name, const std::vector<std::string>& arguments);
 
 /// A use of sequences, and the formats that it takes.
 struct Use {
