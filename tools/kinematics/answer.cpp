@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <string>
 #include <tuple>
 
+#include "tools/files/json_node.h"
+#include "tools/files/output_file.h"
 #include "tools/kinematics/theory.h"
+#include "tools/report/page_writer.h"
 
 namespace lcs::kinematics {
 namespace {
@@ -264,6 +269,27 @@ Statement real_camera(const Study& study) {
           verdict_on(study, worst_px, "for the worst of them")};
 }
 
+constexpr const char* kAnswerText = "answer.txt";
+constexpr const char* kAnswerTable = "answer.csv";
+constexpr const char* kPage = "kinematics.html";
+
+std::string answer_csv(const std::vector<Statement>& statements) {
+  Table table("topic,figure,value,unit,expected");
+  for (const Statement& s : statements) {
+    for (const Figure& f : s.figures) table.add(s.topic, f.name, f.value, f.unit, f.expected);
+  }
+  return table.csv();
+}
+
+constexpr struct {
+  const char* name;  // of the file, without ".csv"
+  Table Study::*rows;
+} kTables[] = {{"rotation", &Study::rotation}, {"translation", &Study::translation},
+               {"foe_distance", &Study::foe},  {"focal_length", &Study::focal},
+               {"mount", &Study::mount},       {"drives", &Study::drives},
+               {"imu", &Study::imu},           {"bumps", &Study::bumps},
+               {"drift", &Study::drift}};
+
 }  // namespace
 
 std::vector<Statement> answer(const Study& study) {
@@ -313,6 +339,39 @@ std::string text_of(const StudyConfig& config, const std::vector<Statement>& sta
     text += fmt::format("  within {:g} px? {}\n", config.tolerance_px, s.verdict);
   }
   return text;
+}
+
+/// The text of `kinematics.js`, which lays out a study on its page.
+extern const std::string_view kKinematicsJs;
+
+files::ResultNames study_files() {
+  files::ResultNames names{kAnswerText, kAnswerTable, kPage};
+  for (const auto& table : kTables) names.push_back(fmt::format("{}.csv", table.name));
+  return names;
+}
+
+void write_study(const std::filesystem::path& folder, const Study& study) {
+  const StudyConfig& config = study.config;
+  const std::vector<Statement> statements = answer(study);
+  nlohmann::json data = {{"subject", subject(config)},
+                         {"bottom_line", bottom_line(config, statements)},
+                         {"tolerance_px", config.tolerance_px},
+                         {"reference_depth_m", field_of(config.filter).reference_depth_m},
+                         {"tables", {{"answer", answer_csv(statements)}}}};
+  for (const Statement& s : statements) {
+    data["statements"].push_back({{"topic", s.topic}, {"text", s.text}, {"verdict", s.verdict}});
+  }
+  for (const auto& table : kTables) {
+    const std::string csv = (study.*table.rows).csv();
+    files::write_file(folder / fmt::format("{}.csv", table.name), csv);
+    data["tables"][table.name] = csv;
+  }
+  files::write_file(folder / kAnswerText, text_of(config, statements));
+  files::write_file(folder / kAnswerTable, answer_csv(statements));
+  report::write_page(folder / kPage, {.title = "lcs kinematics: " + config.scenario.name,
+                                      .data = files::json_text(data),
+                                      .script = kKinematicsJs,
+                                      .where_else = "the CSV files"});
 }
 
 }  // namespace lcs::kinematics
