@@ -10,7 +10,7 @@
 
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
-#include "tools/scoring/stages.h"
+#include "tools/scoring/scores.h"
 
 namespace lcs::scoring {
 namespace {

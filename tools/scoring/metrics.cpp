@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "tools/scoring/scores.h"
-#include "tools/scoring/stages.h"
 #include "tools/scoring/statistics.h"
 
 namespace lcs::scoring {

@@ -1,9 +1,10 @@
 /// \file
-/// The counts and samples from which a run's metrics are computed.
+/// The counts, samples and times from which a run's metrics are computed.
 #pragma once
 
 #include <cstdint>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "tools/recording/recording.h"
@@ -29,6 +30,30 @@ struct LabelScore {
 /// Whether the square moves. A square without circles counts as moving: it is of a user's detector,
 /// or of a body that moved before.
 bool may_move(const Square& square);
+
+/// A timed stage of a frame's processing.
+struct Stage {
+  const char* name;  ///< such as "line": column line_ms, metrics time.line_*
+  double recording::FrameTimes::*time_ms;
+  const char* label = "";     ///< label in tables
+  bool is_layer = false;      ///< undefined for a detector without layers
+  bool is_of_filter = false;  ///< its time is also compared with FAST's
+  bool is_younger = false;    ///< optional column, missing in older files
+  std::string column() const { return std::string(name) + "_ms"; }
+};
+
+/// In the order of frames.csv and metrics.json.
+inline constexpr Stage kStages[] = {
+    {"detect", &recording::FrameTimes::detect_ms, "FAST"},
+    {"describe", &recording::FrameTimes::describe_ms, "signatures", false, false, true},
+    {"line", &recording::FrameTimes::line_ms, "line", true, true},
+    {"circle", &recording::FrameTimes::circle_ms, "circle", true, true},
+    {"square", &recording::FrameTimes::square_ms, "square", true, true},
+    {"filter", &recording::FrameTimes::filter_ms, "filter", false, true},
+    {"process", &recording::FrameTimes::process_ms, "process", false, false, true},
+    {"simulate", &recording::FrameTimes::simulate_ms},
+    {"truth", &recording::FrameTimes::truth_ms},
+};
 
 struct Scores {
   recording::DetectorInfo detector;
