@@ -1,5 +1,5 @@
 // Warnings from an IMU at rest.
-#include "tools/replay/at_rest.h"
+#include "tools/replay/recorded.h"
 
 #include <gtest/gtest.h>
 

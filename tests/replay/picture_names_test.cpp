@@ -1,5 +1,5 @@
 // The order of pictures by the numbers in their names, and names that are times.
-#include "tools/replay/picture_names.h"
+#include "tools/replay/recorded.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,6 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/at_rest.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -10,7 +10,7 @@
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/replay/motion_tables.h"
-#include "tools/replay/picture_names.h"
+#include "tools/replay/recorded.h"
 
 namespace lcs::replay {
 namespace {

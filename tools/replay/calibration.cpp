@@ -1,4 +1,3 @@
-#include "tools/replay/calibration.h"
 
 #include <algorithm>
 #include <vector>

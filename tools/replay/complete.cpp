@@ -6,8 +6,6 @@
 
 #include "scenes/worlds/worlds.h"
 #include "sim/base/rotation.h"
-#include "tools/replay/at_rest.h"
-#include "tools/replay/calibration.h"
 #include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 #include "tools/sequence/replay_settings.h"

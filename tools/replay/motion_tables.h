@@ -2,18 +2,22 @@
 /// Tables that tell a motion: poses of TUM's RGB-D benchmark, KITTI's odometry, KITTI-360 and
 /// EuRoC's truth; sensors' tables in EuRoC's ASL format. Unreadable rows are left out, rows out of
 /// order sorted, and duplicate times used once; all of this is counted.
+///
+/// Calibrations of a camera and an IMU, as several tools write them: EuRoC's sensor.yaml, Kalibr's
+/// and OpenVINS's camchain and IMU, ROS's camera_info, OpenCV, ORB-SLAM, VINS (camodocal).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scenarios/scenario.h"
 #include "sim/base/pose.h"
 #include "sim/imu/imu.h"
-#include "tools/replay/at_rest.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
@@ -66,5 +70,21 @@ CameraPoses read_pose_csv(const fs::path& file, Tally& tally);
 ///   velocities are their differences, biases are 0; both is told.
 std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& times,
                                       bool has_velocities, Tally& tally);
+
+struct SensorCalibration {
+  std::optional<Lens> lens;  ///< of a camera
+  /// Pose of the sensor in the body frame B: EuRoC's T_BS; of a camera also Kalibr's T_cam_imu,
+  /// inverted, OpenVINS's T_imu_cam, ORB-SLAM's T_b_c1, and VINS's body_T_cam0. Then B is the IMU.
+  std::optional<sim::Pose> T_BS;
+  std::optional<double> rate_hz;
+  std::optional<double> time_offset_s;      ///< of a camera: Kalibr's timeshift_cam_imu, VINS's td
+  bool has_cameras = false;                 ///< the name of a camera chose one of several
+  std::optional<scenario::ImuNoise> noise;  ///< of an IMU; turn-on biases are 0
+  std::map<std::string, input::Source> keys = {};  ///< top-level keys and their places
+};
+
+/// \param camera one of several in a file, by its name there, as "cam1"; another name: the first.
+/// \throws input::Error with file and line, also if it is of none of the known kinds.
+SensorCalibration read_calibration(const fs::path& file, const std::string& camera = "");
 
 }  // namespace lcs::replay

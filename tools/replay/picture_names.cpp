@@ -1,4 +1,4 @@
-#include "tools/replay/picture_names.h"
+#include "tools/replay/recorded.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 
 #include "scenarios/input/error.h"
 #include "tools/files/csv.h"
-#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
 namespace {

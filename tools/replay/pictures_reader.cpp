@@ -12,7 +12,6 @@
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
 #include "tools/output/video.h"
-#include "tools/replay/picture_names.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "scenarios/input/inputs_read.h"
-#include "tools/replay/picture_names.h"
 
 namespace lcs::replay {
 

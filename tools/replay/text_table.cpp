@@ -10,7 +10,6 @@
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/replay/picture_names.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
