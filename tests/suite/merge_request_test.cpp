@@ -1,4 +1,4 @@
-#include "tools/suite/merge_request.h"
+#include "tools/suite/tables.h"
 
 #include <gtest/gtest.h>
 

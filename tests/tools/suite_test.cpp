@@ -17,7 +17,7 @@
 #include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/suite/junit.h"
+#include "tools/suite/tables.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {

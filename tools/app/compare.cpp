@@ -16,8 +16,8 @@
 #include "tools/output/result.h"
 #include "tools/recording/recording_io.h"
 #include "tools/suite/judgement.h"
-#include "tools/suite/merge_request.h"
 #include "tools/suite/plan.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::app {
 namespace fs = std::filesystem;

@@ -14,7 +14,6 @@
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/report/report_page.h"
-#include "tools/suite/junit.h"
 #include "tools/suite/parts.h"
 #include "tools/suite/suite_run.h"
 #include "tools/suite/tables.h"

@@ -1,4 +1,4 @@
-#include "tools/suite/junit.h"
+#include "tools/suite/tables.h"
 
 #include <fmt/format.h>
 #include <tinyxml2.h>

@@ -1,4 +1,4 @@
-#include "tools/suite/merge_request.h"
+#include "tools/suite/tables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

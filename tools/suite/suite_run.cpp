@@ -12,7 +12,6 @@
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/suite/child_process.h"
-#include "tools/suite/junit.h"
 #include "tools/suite/summary.h"
 #include "tools/suite/tables.h"
 

@@ -1,13 +1,17 @@
 /// \file
-/// A suite's result as text for a terminal, and tables that compare its detector with others on the
-/// same runs.
+/// A suite's result for people and other programs: text for a terminal, tables that compare its
+/// detector with others on the same runs, JUnit XML for Jenkins, GitLab and others, and a
+/// comparison of two suites for the discussion of a merge request, in Markdown with two pictures.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::suite {
 
@@ -37,5 +41,32 @@ inline constexpr const char* kStandingFile = "standing.md";
 /// boxes, false objects, and times of a frame. Each is a mean over the scenarios that have the
 /// figure, for worlds (times apart) with the 95 % interval, `±`. An undefined figure is `-`.
 std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others);
+
+inline constexpr const char* kJunitFile = "junit.xml";
+
+/// Writes one test suite per scenario and one test case per judged criterion (`judgements_of`). A
+/// `failure` is a required criterion that is not met, `skipped` one that is not required, an
+/// `error` a run without figures. Each of these names its place in report.html. Against a baseline
+/// a further test suite, `baseline`, has one test case: a `failure` if it regressed, an `error` if
+/// nothing was judged. \param others results of other detectors on the same scenarios. \param
+/// verdict of the suite. \throws files::OutputError
+void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
+                 std::span<const SuiteResult> others, const SuiteVerdict& verdict);
+
+inline constexpr const char *kSummaryFile = "summary.md", *kBeforePicture = "before.jpg",
+                            *kAfterPicture = "after.jpg";
+
+/// Writes the verdict, the means, the worst scenarios with their reasons, and the event that grew
+/// most since `before`, with a picture of it in each suite that has the event in these frames.
+/// \param folder exists; gets `kSummaryFile` and the pictures.
+/// \param pictures_at address of a folder that will have the pictures, in which the Markdown looks
+///   for them; "": beside the Markdown.
+/// \throws std::runtime_error for a file of events that cannot be read. \throws OutputError
+void write_merge_request(const std::filesystem::path& folder, const SuiteInFolder& before,
+                         const SuiteInFolder& after, const Comparison& comparison,
+                         const SuiteVerdict& verdict, const std::string& pictures_at);
+
+/// Markdown of a frame's picture. \param pictures_at as above.
+std::string picture_link(int frame, const std::string& name, const std::string& pictures_at);
 
 }  // namespace lcs::suite
