@@ -17,8 +17,8 @@
 #include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/suite/tables.h"
 #include "tools/suite/suite_result.h"
+#include "tools/suite/tables.h"
 
 namespace lcs::suite {
 namespace {
