@@ -43,7 +43,7 @@ TEST(AtRest, IsTakenWhereTheFirstSecondIsStill) {
   EXPECT_NEAR(1e-9 * static_cast<double>(rest->until_ns), 2, 0.26);
   EXPECT_LE(rest->until_ns, 2'000'000'000);
   EXPECT_LT((rest->start.gyro_bias_radps - kGyroBias).norm(), 5e-4);
-  EXPECT_LT((rest->start.state.q_WB * kTilted.normalized() - Vector3d::UnitZ()).norm(), 2e-3);
+  EXPECT_LT((rest->start.q_WB * kTilted.normalized() - Vector3d::UnitZ()).norm(), 2e-3);
   EXPECT_NEAR(rest->start.accel_bias_mps2.norm(), 0.05, 0.01);
   EXPECT_FALSE(rest->moved);
 }

@@ -27,8 +27,7 @@ class SensorTable : public testing::Test {
     std::string text = header + "\n";
     for (int i = 0; i < 400; ++i) text += row(i) + "\n";
     test::write(path_, text);
-    return read_imu_csv(path_, {unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns},
-                        tally_);
+    return read_imu_csv(path_, {unit, kImuRate, kNanosecond_ns}, tally_);
   }
   std::string refusal(const std::string& header, const Row& row, const std::string& unit = "") {
     return refusal_of<input::Error>([&] { read(header, row, unit); });

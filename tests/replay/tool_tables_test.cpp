@@ -30,7 +30,7 @@ class ToolTable : public testing::Test {
   }
   std::vector<sim::ImuSample> imu(const std::string& header, const Row& row, int rows = 400) {
     write(header, row, rows);
-    return read_imu_csv(path_, {"", {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns}, tally_);
+    return read_imu_csv(path_, {"", kImuRate, kNanosecond_ns}, tally_);
   }
   /// Of pictures img/00000.jpg, ...
   std::vector<std::int64_t> times(const std::string& header, const Row& row, int rows = 20,

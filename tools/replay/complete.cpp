@@ -185,14 +185,12 @@ void set_motion(const RecordingSource& asked, bool times_known, bool is_told, Re
   } else if (asked.imu) {
     if (!times_known) return;
     recorded.took.insert("time_unit");
-    const auto times = [&](double slowest_hz, double fastest_hz) {
-      return TableTimes{asked.time_unit, {slowest_hz, fastest_hz, {}}, kNanosecond_ns};
-    };
+    TableTimes times{asked.time_unit, kImuRate, kNanosecond_ns};
     SensorReadings readings;
-    readings.imu = read_imu_csv(*asked.imu, times(kSlowestImu_hz, kFastestImu_hz), recorded.tally);
+    readings.imu = read_imu_csv(*asked.imu, times, recorded.tally);
+    times.rate = kStateRate;
     if (asked.odometry) {
-      readings.odometry = read_odometry_csv(
-          *asked.odometry, times(kSlowestState_hz, kFastestState_hz), recorded.tally);
+      readings.odometry = read_odometry_csv(*asked.odometry, times, recorded.tally);
     }
     move_by_readings(asked, *asked.imu, std::move(readings), recorded);
   } else if (asked.speed_mps && motion_is_asked(asked)) {
@@ -452,8 +450,8 @@ void move_from(const TrueState& start, sim::Calibration calibration, SensorReadi
     sample.gyro_radps -= start.gyro_bias_radps;
     sample.accel_mps2 -= start.accel_bias_mps2;
   }
-  calibration.T_WB_start.R = start.state.q_WB.toRotationMatrix();
-  calibration.v_WB_start_mps = start.state.v_WB_mps;
+  calibration.T_WB_start.R = start.q_WB.toRotationMatrix();
+  calibration.v_WB_start_mps = start.v_WB_mps;
   recorded.settings.odometry.enabled = !readings.odometry.empty();
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));

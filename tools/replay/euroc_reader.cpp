@@ -36,10 +36,10 @@ SensorCalibration calibration_in(const fs::path& sensor) {
 
 /// EuRoC's tables have ns, unless something else is stated.
 TableTimes times_of(const fs::path& sensor, const SensorCalibration& calibration,
-                    const RecordingSource& asked, double least_hz, double most_hz) {
-  return {asked.time_unit,
-          {least_hz, most_hz, calibration.rate_hz, (sensor / "sensor.yaml").string()},
-          kNanosecond_ns};
+                    const RecordingSource& asked, ExpectedRate rate) {
+  rate.stated_hz = calibration.rate_hz;
+  rate.stated_by = (sensor / "sensor.yaml").string();
+  return {asked.time_unit, rate, kNanosecond_ns};
 }
 
 void read_frames(const fs::path& camera, const TableTimes& times, Recorded& recorded) {
@@ -158,9 +158,8 @@ std::vector<TrueState> read_truth(const fs::path& mav, const RecordingSource& as
     const fs::path file = mav / name / "data.csv";
     if (!fs::exists(file)) continue;
     const SensorCalibration calibration = calibration_in(mav / name);
-    const TableTimes times =
-        times_of(mav / name, calibration, asked, kSlowestState_hz, kFastestState_hz);
-    return read_truth_csv(file, times, name == kTruthFolder, tally);
+    return read_truth_csv(file, times_of(mav / name, calibration, asked, kStateRate),
+                          name == kTruthFolder, tally);
   }
   return {};
 }
@@ -174,7 +173,7 @@ void require_gravity_down(const TrueState& start, const std::vector<sim::ImuSamp
     const double since_s = seconds(sample.t_ns - start.t_ns);
     if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
   }
-  if ((start.state.q_WB * force_S).z() >= 0) return;
+  if ((start.q_WB * force_S).z() >= 0) return;
   refuse({file},
          "by the attitude of the truth its accelerations point down, and at rest they must point "
          "up; change their sign");
@@ -199,15 +198,13 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
       refuse({}, "{} has no truth to tell the motion from; leave --ego-motion truth out",
              mav.string());
     }
-    std::vector<NavigationState> states;
-    for (const TrueState& state : truth) states.push_back(state.state);
-    move_by_navigation(std::move(states), T_BC, recorded);
+    move_by_navigation({truth.begin(), truth.end()}, T_BC, recorded);
     return;
   }
   SensorReadings readings;
   const fs::path imu_file = mav / "imu0" / "data.csv";
   const SensorCalibration imu = calibration_in(mav / "imu0");
-  const TableTimes times = times_of(mav / "imu0", imu, asked, kSlowestImu_hz, kFastestImu_hz);
+  const TableTimes times = times_of(mav / "imu0", imu, asked, kImuRate);
   readings.imu = read_imu_csv(imu_file, times, recorded.tally);
   if (imu.noise) recorded.settings.imu.noise = *imu.noise;
   take_imu_noise(asked, recorded);
@@ -223,7 +220,7 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
                kBehindReadings_ns, first_ns},
               recorded);
   if (truth.empty()) recorded.took.insert("at_rest");
-  TrueState start{first_ns, {}};
+  TrueState start{{first_ns}};
   if (const auto known = std::ranges::lower_bound(truth, first_ns, {}, &TrueState::t_ns);
       !truth.empty()) {
     start = known == truth.end() ? truth.back() : *known;
@@ -232,8 +229,7 @@ void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_kno
   if (const fs::path file = mav / "odometry0" / "data.csv"; fs::exists(file)) {
     const SensorCalibration wheels = calibration_in(mav / "odometry0");
     readings.odometry = read_odometry_csv(
-        file, times_of(mav / "odometry0", wheels, asked, kSlowestState_hz, kFastestState_hz),
-        recorded.tally);
+        file, times_of(mav / "odometry0", wheels, asked, kStateRate), recorded.tally);
     recorded.took.insert("topics.odometry");
     const sim::Pose T_BO = wheels.T_BS.value_or(sim::Pose{});
     for (sim::OdometrySample& sample : readings.odometry) {
@@ -309,9 +305,7 @@ Recorded read_euroc(const RecordingSource& asked, bool exact_motion) {
   const SensorCalibration sensor = calibration_in(camera_folder);
   Recorded recorded;
   if (fs::exists(camera_folder / "data.csv")) {
-    read_frames(camera_folder,
-                times_of(camera_folder, sensor, asked, kSlowestCamera_hz, kFastestCamera_hz),
-                recorded);
+    read_frames(camera_folder, times_of(camera_folder, sensor, asked, kCameraRate), recorded);
   } else {
     take_pictures(camera_folder / "data", asked.time_unit, recorded);
   }

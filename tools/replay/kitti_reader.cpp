@@ -24,11 +24,11 @@ class KittiCalibration {
   explicit KittiCalibration(const fs::path& file) : file_(file) {
     int unnamed = 0;
     for (const TextTable::Row& row : read_table(file).rows) {
-      const bool is_named = !TextTable::number(row, 0);
+      const bool is_named = !row.number(0);
       std::string name = is_named ? row.fields[0] : fmt::format("P{}", unnamed++);
       if (name.ends_with(':')) name.pop_back();  // KITTI tracking names some without a colon
       const std::size_t first = is_named ? 1 : 0;
-      const auto numbers = TextTable::numbers(row, first, row.fields.size() - first);
+      const auto numbers = row.numbers(first, row.fields.size() - first);
       if (numbers) values_[name] = *numbers;
     }
   }
@@ -117,7 +117,7 @@ std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally&
 std::optional<NavigationState> state_in(const TextTable::Row& row) {
   constexpr std::size_t kNumbers = 30;
   enum Column : std::size_t { kRoll = 3, kPitch, kYaw, kNorth, kEast, kUp = 10 };
-  const auto numbers = TextTable::numbers(row, 0, kNumbers);
+  const auto numbers = row.numbers(0, kNumbers);
   if (!numbers) return std::nullopt;
   const std::vector<double>& n = *numbers;
   const Vector3d v_mps(n[kEast], n[kNorth], n[kUp]);

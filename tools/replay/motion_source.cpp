@@ -113,11 +113,11 @@ Vector3d middle_mean(std::vector<Vector3d> values) {
 
 Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   const Part all = part_of(readings);
-  Rest rest{{readings.front().t_ns, {}, all.gyro()}, all.end_ns};
+  Rest rest{{{readings.front().t_ns}, all.gyro()}, all.end_ns};
   if (all.accel().norm() > 0) {
     const Vector3d up = all.accel().normalized();
     rest.start.accel_bias_mps2 = all.accel() - gravity_mps2 * up;
-    rest.start.state.q_WB = sim::least_rotation(up, Vector3d::UnitZ());
+    rest.start.q_WB = sim::least_rotation(up, Vector3d::UnitZ());
   }
   return rest;
 }
@@ -360,10 +360,10 @@ TrueState start_of(std::span<const sim::ImuSample> readings, const RecordingSour
             : "recordings start while they move: upright as the accelerometer says, and the "
               "gyroscope's bias counts as 0",
         fmt::format("{} readings", beginning.count));
-    start.state.q_WB = sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized();
+    start.q_WB = sim::least_rotation(beginning.up_S_mps2, Vector3d::UnitZ()).normalized();
     if (is_at_rest) start.gyro_bias_radps = beginning.rate_S_radps;
   }
-  start.state.v_WB_mps = speed_mps * (start.state.q_WB.toRotationMatrix() * R_BC.col(2));
+  start.v_WB_mps = speed_mps * (start.q_WB.toRotationMatrix() * R_BC.col(2));
   return start;
 }
 

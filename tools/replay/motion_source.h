@@ -158,9 +158,7 @@ CameraPoses poses_along(const std::vector<NavigationState>& states,
 // ---- The start of dead reckoning
 
 /// State of the body, with the biases of its IMU.
-struct TrueState {
-  std::int64_t t_ns = 0;
-  NavigationState state;
+struct TrueState : NavigationState {
   Vector3d gyro_bias_radps = Vector3d::Zero();
   Vector3d accel_bias_mps2 = Vector3d::Zero();
 };

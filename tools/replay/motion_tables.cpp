@@ -35,7 +35,7 @@ constexpr Places kTumPlaces{1, 2, 3, 4, 5, 6, 7};
 std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const Places& at,
                                                const TimeColumn& time) {
   const auto t_ns = time.of(row);
-  const auto numbers = TextTable::numbers(row, at);
+  const auto numbers = row.numbers(at);
   if (!numbers) return std::nullopt;
   const Vector3d p(numbers->data());
   const Eigen::Quaterniond q(numbers->data() + 3);
@@ -46,7 +46,7 @@ std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const 
 /// \param first place of a matrix of 12 or 16 numbers; the number of the picture is before it.
 std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_t first,
                                            std::size_t count) {
-  const auto n = TextTable::numbers(row, first, count);
+  const auto n = row.numbers(first, count);
   if (!n) return std::nullopt;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(n->data());
   const auto R = rotation_of(rows.leftCols<3>());
@@ -99,8 +99,7 @@ void require_velocities(const TextTable& table, const PosesFile& poses) {
   const PosesFile::Line* before = nullptr;
   for (std::size_t i = 0; i < poses.lines.size(); ++i) {
     const auto& line = poses.lines[i];
-    const auto v_mps =
-        TextTable::numbers(table.rows[i], std::array{*column, *column + 1, *column + 2});
+    const auto v_mps = table.rows[i].numbers(std::array{*column, *column + 1, *column + 2});
     if (!line || !v_mps) continue;
     if (before) {
       by_places_m += (line->T_WC.p - before->T_WC.p).norm();
@@ -133,12 +132,12 @@ std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
   std::vector<NumberRow> rows;
   for (const TextTable::Row& row : table.rows) {
     const auto t_ns = time.of(row);
-    auto numbers = TextTable::numbers(row, columns);
+    auto numbers = row.numbers(columns);
     if (!t_ns || !numbers) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
     }
-    const auto more = last ? TextTable::number(row, *last) : std::nullopt;
+    const auto more = last ? row.number(*last) : std::nullopt;
     if (more) numbers->push_back(*more);
     rows.push_back({*t_ns, std::move(*numbers)});
   }
@@ -465,10 +464,10 @@ std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& ti
       tally.add("rows have no unit quaternion and are left out", file.string());
       continue;
     }
-    TrueState& state = states.emplace_back(TrueState{row.t_ns, {row.t_ns, q_WB.normalized()}});
+    TrueState& state = states.emplace_back(TrueState{{row.t_ns, q_WB.normalized()}});
     places_m.push_back(vector_at(row, 0));
     if (!has_velocities) continue;
-    state.state.v_WB_mps = vector_at(row, 7);
+    state.v_WB_mps = vector_at(row, 7);
     state.gyro_bias_radps = vector_at(row, 10);
     state.accel_bias_mps2 = vector_at(row, 13);
   }
@@ -478,7 +477,7 @@ std::vector<TrueState> read_truth_csv(const fs::path& file, const TableTimes& ti
     while (a > 0 && states[i].t_ns - states[a].t_ns < kHalfSpan_ns) --a;
     while (b + 1 < states.size() && states[b].t_ns - states[i].t_ns < kHalfSpan_ns) ++b;
     const double span_s = seconds(states[b].t_ns - states[a].t_ns);
-    if (span_s > 0) states[i].state.v_WB_mps = (places_m[b] - places_m[a]) / span_s;
+    if (span_s > 0) states[i].v_WB_mps = (places_m[b] - places_m[a]) / span_s;
   }
   tally.add(
       "truths have poses alone: velocities are their differences, the IMU's biases count as 0",

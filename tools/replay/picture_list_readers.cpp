@@ -47,8 +47,7 @@ std::vector<sim::Event> read_events(const fs::path& path, Tally& tally) {
 
 Lens read_lens(const fs::path& file) {
   const TextTable table = read_table(file);
-  const auto numbers =
-      table.rows.size() == 1 ? TextTable::numbers(table.rows[0], 0, 9) : std::nullopt;
+  const auto numbers = table.rows.size() == 1 ? table.rows[0].numbers(0, 9) : std::nullopt;
   if (!numbers) refuse({file}, "has not one line of fx fy cx cy k1 k2 p1 p2 k3");
   const std::vector<double>& n = *numbers;
   Lens lens = pinhole({n[0], n[1], n[2], n[3]}, {file.string(), 0});
@@ -119,8 +118,8 @@ std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   R_frd_flu << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   std::vector<NavigationState> states;
   for (const TextTable::Row& row : table.rows) {
-    const auto t_ns = time_in(TextTable::field(row, time), kMicrosecond_ns);
-    const auto numbers = TextTable::numbers(row, columns);
+    const auto t_ns = time_in(row.field(time), kMicrosecond_ns);
+    const auto numbers = row.numbers(columns);
     const Vector3d v_ned_mps = numbers ? Vector3d(numbers->data()) : Vector3d::Zero();
     if (!t_ns || !numbers || !is_speed(v_ned_mps)) {
       tally.add("rows cannot be read and are left out", table.at(row));
@@ -140,7 +139,7 @@ using RowOfFrame = std::vector<const TextTable::Row*>;
 bool is_count(const TextTable& table, std::size_t column) {
   std::set<long> numbers;
   for (const TextTable::Row& row : table.rows) {
-    const auto number = files::number_in<long>(TextTable::field(row, column));
+    const auto number = files::number_in<long>(row.field(column));
     if (!number || !numbers.insert(*number).second) return false;
   }
   return numbers.size() > 1 && *numbers.rbegin() - *numbers.begin() == std::ssize(numbers) - 1;
@@ -157,7 +156,7 @@ RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
   RowOfFrame rows(frames.size());
   std::size_t named = 0;
   for (const TextTable::Row& row : table.rows) {
-    const fs::path name = TextTable::field(row, column);
+    const fs::path name = row.field(column);
     auto found = frame_of_stem.find(name.filename().string());
     if (found == frame_of_stem.end()) found = frame_of_stem.find(name.stem().string());
     if (found == frame_of_stem.end()) continue;
@@ -166,14 +165,14 @@ RowOfFrame rows_by_name(const TextTable& table, std::size_t column,
     const TextTable::Row*& other = rows[found->second];
     const auto is_here = [&](const TextTable::Row& of) {
       const std::string whole = fmt::format("/{}", frame.picture.string());
-      return whole.ends_with(fmt::format("/{}", TextTable::field(of, column)));
+      return whole.ends_with(fmt::format("/{}", of.field(column)));
     };
     if (!other || (is_here(row) && !is_here(*other))) {
       other = &row;
-    } else if (!is_here(*other) && TextTable::field(*other, column) != name.string()) {
+    } else if (!is_here(*other) && other->field(column) != name.string()) {
       refuse({table.file, row.line},
              "{} and {} may both be the picture {}; give the rows of its folder alone",
-             TextTable::field(*other, column), name.string(), frame.name());
+             other->field(column), name.string(), frame.name());
     }
   }
   // A count from 0 is not that of the names 1.png, 2.png, ...
@@ -186,7 +185,7 @@ RowOfFrame rows_by_number(const TextTable& table, std::size_t column,
                           const std::vector<RecordedFrame>& frames) {
   std::map<std::size_t, const TextTable::Row*> row_of_number;
   for (const TextTable::Row& row : table.rows) {
-    const auto number = files::number_in<std::size_t>(TextTable::field(row, column));
+    const auto number = files::number_in<std::size_t>(row.field(column));
     if (number) row_of_number.emplace(*number, &row);
   }
   RowOfFrame rows;
@@ -203,7 +202,7 @@ bool increases(const RowOfFrame& rows, std::size_t column) {
   std::size_t falls = 0;
   std::optional<double> before;
   for (const TextTable::Row* row : rows) {
-    const auto number = row ? TextTable::number(*row, column) : std::nullopt;
+    const auto number = row ? row->number(column) : std::nullopt;
     falls += before && number && *number <= *before;
     if (number) before = number;
   }
@@ -216,7 +215,7 @@ std::size_t time_column(const TextTable& table, std::optional<std::size_t> names
   const std::size_t columns = table.rows.front().fields.size();
   const bool has_header = !table.header.empty() && !table.is_comment;
   for (std::size_t i = 0; i < columns && !has_header; ++i) {
-    const bool is_number = TextTable::number(table.rows.front(), i).has_value();
+    const bool is_number = table.rows.front().number(i).has_value();
     if (columns == 1 && is_number && (!is_count(table, i) || increases(rows, i))) return i;
     if (i != names && is_number && !is_count(table, i) && increases(rows, i)) return i;
   }
@@ -270,7 +269,7 @@ Recorded read_rpg_events(const RecordingSource& asked, bool exact_motion) {
       asked.calibration && read_calibration(*asked.calibration, asked.camera).T_BS;
   if (is_on_imu && !exact_motion && fs::exists(imu)) {
     SensorReadings readings;
-    const TableTimes in_seconds{"s", {kSlowestImu_hz, kFastestImu_hz, {}}, kSecond_ns};
+    const TableTimes in_seconds{"s", kImuRate, kSecond_ns};
     readings.imu = read_imu_csv(imu, in_seconds, recorded.tally, {4, 5, 6, 1, 2, 3});
     move_by_readings(asked, imu, std::move(readings), recorded);
   } else if (fs::exists(truth)) {
@@ -329,7 +328,7 @@ void time_by_table(const fs::path& file, const std::string& time_unit, Recorded&
            "column with the names of the pictures",
            table.rows.size(), pictures);
   }
-  const TableTimes times{time_unit, {kSlowestCamera_hz, kFastestCamera_hz, {}}, {}};
+  const TableTimes times{time_unit, kCameraRate, {}};
   TimeColumn time;
   if (table.time_column()) {
     time = time_column_of(table, times, recorded.tally);

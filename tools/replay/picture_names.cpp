@@ -220,7 +220,7 @@ std::vector<std::int64_t> times_of(const std::vector<Name>& names, std::size_t p
   }
   const std::optional<double> rate_hz = usual_rate_hz(times);
   if (!time_unit.empty() || !rate_hz) return times;
-  const bool is_camera = *rate_hz > kSlowestCamera_hz && *rate_hz < kFastestCamera_hz;
+  const bool is_camera = *rate_hz > kCameraRate.least_hz && *rate_hz < kCameraRate.most_hz;
   return is_camera ? times : std::vector<std::int64_t>{};
 }
 

@@ -139,7 +139,7 @@ std::optional<double> usual_period(const TextTable& table, std::size_t column) {
   std::vector<double> periods;
   std::optional<long double> last;  // a double has too few digits for epoch times
   for (std::size_t i = 0; i < table.rows.size() && i < kSuffices; ++i) {
-    const auto time = files::number_in<long double>(TextTable::field(table.rows[i], column));
+    const auto time = files::number_in<long double>(table.rows[i].field(column));
     if (time && last && *time > *last) periods.push_back(static_cast<double>(*time - *last));
     if (time) last = time;
   }
@@ -165,7 +165,7 @@ void require_no_ticks(const TextTable& table, std::size_t column) {
   constexpr std::int64_t kSpan = 20'000'000'000'000'000;
   if (table.rows.empty()) return;
   const TextTable::Row& row = table.rows.front();
-  const auto ticks = files::number_in<std::int64_t>(TextTable::field(row, column));
+  const auto ticks = files::number_in<std::int64_t>(row.field(column));
   for (const std::int64_t at_1970 : {116'444'736'000'000'000, 621'355'968'000'000'000}) {
     if (!ticks || *ticks < at_1970 || *ticks > at_1970 + kSpan) continue;
     refuse({table.file, row.line},
@@ -223,31 +223,31 @@ std::string TextTable::at(const Row& row) const {
   return fmt::format("{}:{}", file.string(), row.line);
 }
 
-std::string_view TextTable::field(const Row& row, std::size_t column) {
-  return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
+std::string_view TextTable::Row::field(std::size_t column) const {
+  return column < fields.size() ? std::string_view(fields[column]) : "";
 }
 
-std::optional<double> TextTable::number(const Row& row, std::size_t column) {
-  return files::number_in<double>(field(row, column));
+std::optional<double> TextTable::Row::number(std::size_t column) const {
+  return files::number_in<double>(field(column));
 }
 
-std::optional<std::vector<double>> TextTable::numbers(const Row& row,
-                                                      std::span<const std::size_t> columns) {
+std::optional<std::vector<double>> TextTable::Row::numbers(
+    std::span<const std::size_t> columns) const {
   std::vector<double> numbers;
   for (const std::size_t column : columns) {
-    const auto one = number(row, column);
+    const auto one = number(column);
     if (!one) return std::nullopt;
     numbers.push_back(*one);
   }
   return numbers;
 }
 
-std::optional<std::vector<double>> TextTable::numbers(const Row& row, std::size_t first,
-                                                      std::size_t count) {
-  if (row.fields.size() != first + count) return std::nullopt;
+std::optional<std::vector<double>> TextTable::Row::numbers(std::size_t first,
+                                                           std::size_t count) const {
+  if (fields.size() != first + count) return std::nullopt;
   std::vector<std::size_t> columns(count);
   std::iota(columns.begin(), columns.end(), first);
-  return numbers(row, columns);
+  return numbers(columns);
 }
 
 std::optional<std::size_t> TextTable::find(std::string_view name) const {
@@ -317,9 +317,9 @@ TextTable read_table(const fs::path& file) {
 }
 
 std::optional<std::int64_t> TimeColumn::of(const TextTable::Row& row) const {
-  const auto t_ns = time_in(TextTable::field(row, column), unit_ns);
+  const auto t_ns = time_in(row.field(column), unit_ns);
   if (!rest) return t_ns;
-  const auto more_ns = time_in(TextTable::field(row, *rest), rest_ns);
+  const auto more_ns = time_in(row.field(*rest), rest_ns);
   return t_ns && more_ns ? std::optional(*t_ns + *more_ns) : std::nullopt;
 }
 
@@ -331,9 +331,8 @@ TimeColumn time_column_of(const TextTable& table, const TableTimes& times, Tally
     if (unit_ns == kSecond_ns) seconds = i;
     if (!seconds || !unit_ns || *unit_ns >= kMillisecond_ns || table.rows.empty()) continue;
     const TextTable::Row& last = table.rows.back();
-    const auto rest_ns = time_in(TextTable::field(last, i), *unit_ns);
-    const bool is_rest =
-        rest_ns && *rest_ns < kSecond_ns && is_digits(TextTable::field(last, *seconds));
+    const auto rest_ns = time_in(last.field(i), *unit_ns);
+    const bool is_rest = rest_ns && *rest_ns < kSecond_ns && is_digits(last.field(*seconds));
     if (is_rest) return {*seconds, kSecond_ns, i, *unit_ns};
   }
   const auto column = table.time_column();
@@ -368,7 +367,7 @@ bool lack_zeros(const std::vector<std::string_view>& times) {
 
 void require_zeros(const TextTable& table, std::size_t column) {
   std::vector<std::string_view> times;
-  for (const TextTable::Row& row : table.rows) times.push_back(TextTable::field(row, column));
+  for (const TextTable::Row& row : table.rows) times.push_back(row.field(column));
   if (!lack_zeros(times)) return;
   refuse({table.file, table.rows.front().line},
          "the fractions of its seconds lack leading zeros: 12.5 stands for 12.000000005; write "

@@ -40,6 +40,14 @@ struct TextTable {
   struct Row {
     int line = 0;  ///< from 1
     std::vector<std::string> fields;
+
+    /// "" if the row is shorter.
+    std::string_view field(std::size_t column) const;
+    std::optional<double> number(std::size_t column) const;
+    /// The numbers in columns; absent unless all are there.
+    std::optional<std::vector<double>> numbers(std::span<const std::size_t> columns) const;
+    /// The fields from `first` on; absent unless they are `count` numbers.
+    std::optional<std::vector<double>> numbers(std::size_t first, std::size_t count) const;
   };
 
   fs::path file;
@@ -52,15 +60,6 @@ struct TextTable {
   std::string columns() const;
   /// "file:line"
   std::string at(const Row& row) const;
-  /// The field of a row; "" if the row is shorter.
-  static std::string_view field(const Row& row, std::size_t column);
-  static std::optional<double> number(const Row& row, std::size_t column);
-  /// The numbers in columns of a row; absent unless all are there.
-  static std::optional<std::vector<double>> numbers(const Row& row,
-                                                    std::span<const std::size_t> columns);
-  /// The fields of a row from `first` on; absent unless they are `count` numbers.
-  static std::optional<std::vector<double>> numbers(const Row& row, std::size_t first,
-                                                    std::size_t count);
 
   /// \param name without regard to case.
   std::optional<std::size_t> find(std::string_view name) const;
@@ -127,10 +126,8 @@ struct ExpectedRate {
   std::optional<double> stated_hz;  ///< by the recording
   std::string stated_by = {};       ///< file that states it
 };
-inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
-inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
-/// Of wheels, and of truths.
-inline constexpr double kSlowestState_hz = 1, kFastestState_hz = 990;
+inline const ExpectedRate kCameraRate{0.4, 390, {}}, kImuRate{12, 11'000, {}};
+inline const ExpectedRate kStateRate{1, 990, {}};  ///< of wheels, and of truths
 
 /// The unit of a table's times, as far as it is known before the table is read.
 struct TableTimes {
