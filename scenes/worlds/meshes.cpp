@@ -1,4 +1,4 @@
-#include "scenes/worlds/meshes.h"
+#include "scenes/worlds/world.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/worlds/rover.h"
+#include "scenes/worlds/families.h"
 
 #include <algorithm>
 #include <cmath>

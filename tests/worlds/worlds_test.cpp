@@ -14,10 +14,10 @@
 
 #include "filter/detect/fast.h"
 #include "scenarios/load.h"
+#include "scenes/worlds/families.h"
 #include "scenes/worlds/kit.h"
-#include "scenes/worlds/meshes.h"
-#include "scenes/worlds/rover.h"
 #include "scenes/worlds/textures.h"
+#include "scenes/worlds/world.h"
 #include "sim/drive.h"
 #include "sim/scene/mujoco.h"
 #include "sim/simulation.h"

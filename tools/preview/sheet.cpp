@@ -9,8 +9,8 @@
 #include <string>
 
 #include "scenarios/load.h"
+#include "scenes/worlds/families.h"
 #include "scenes/worlds/kit.h"
-#include "scenes/worlds/rover.h"
 #include "scenes/worlds/worlds.h"
 #include "sim/simulation.h"
 #include "sim/world/actor.h"
