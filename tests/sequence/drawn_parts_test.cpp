@@ -9,9 +9,9 @@
 #include "sim/world/world.h"
 #include "tests/benchmark/raw_renderer.h"
 #include "tests/sim/support.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/self_check.h"
 #include "tools/sequence/true_flow.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/self_check.h"
 #include "tools/sequence/writer.h"
 

@@ -1,4 +1,3 @@
-#include "tools/sequence/objects.h"
 
 #include <gtest/gtest.h>
 

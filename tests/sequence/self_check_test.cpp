@@ -9,8 +9,8 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/true_flow.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -14,7 +14,6 @@
 #include "scenarios/input/sha256.h"
 #include "sim/simulation.h"
 #include "tools/files/output_file.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
 #include "tools/sequence/true_flow.h"

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/files/json_node.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/writer.h"
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "tools/files/json_node.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/png.h"
 #include "tools/sequence/writer.h"
 

@@ -15,8 +15,8 @@
 
 #include "sim/camera/linear_light.h"
 #include "sim/truth/inner_pixels.h"
-#include "tools/sequence/objects.h"
 #include "tools/sequence/true_flow.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 namespace {

@@ -136,6 +136,27 @@ inline constexpr std::array<Scripted, 2> kScripted{
 /// failed, as without the library.
 std::string run_script(const std::string& name, const std::vector<std::string>& arguments);
 
+/// \name Objects in the formats of data sets
+///@{
+inline constexpr std::uint16_t kVoid = 65535;  ///< in a mask: the rover itself, not counted
+
+/// Ids of objects by pixel; 0 is the static scene and the sky.
+cv::Mat1w object_mask(const sim::FrameTruth& truth);
+
+struct ObjectKind {
+  std::string category;  ///< the actor's class, or its shape's class; object for all others
+  int coco = 0;          ///< category_id
+  int mot = 0;           ///< MOTChallenge's class; 8, distractor, for a category that it lacks
+  bool moves = false;    ///< an actor with a motion
+};
+
+ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object);
+
+/// The categories of a scenario by their ids, from 1: five that any scenario has, and the other
+/// classes of its actors in their order.
+std::vector<std::string> categories_of(const scenario::Scenario& scenario);
+///@}
+
 /// A use of sequences, and the formats that it takes.
 struct Use {
   std::string_view name;
