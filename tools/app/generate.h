@@ -11,7 +11,7 @@
 #include "scenarios/scenario.h"
 #include "tools/app/caller.h"
 #include "tools/app/option.h"
-#include "tools/app/suite_worlds.h"
+#include "tools/app/world.h"
 #include "tools/sequence/generator.h"
 
 namespace lcs::app {

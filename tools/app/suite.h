@@ -13,7 +13,7 @@
 #include "tools/app/caller.h"
 #include "tools/app/option.h"
 #include "tools/app/run.h"
-#include "tools/app/suite_worlds.h"
+#include "tools/app/world.h"
 #include "tools/files/output.h"
 #include "tools/files/provenance.h"
 #include "tools/suite/comparison.h"
