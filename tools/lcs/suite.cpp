@@ -167,9 +167,7 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
 ExitCode suite(const SuiteOptions& options) {
   Terminal terminal(options.end.quiet);
   if (options.list) return list_plan(app::plan_suite(options.request, terminal).plan);
-  const auto progress = suite_progress(options.end.quiet);
-  return show_suite(app::suite(options.request, terminal, *progress), options.request.place,
-                    options.end);
+  return show_suite(app::suite(options.request, terminal), options.request.place, options.end);
 }
 
 app::Options options_of(SuiteOptions& options) {
