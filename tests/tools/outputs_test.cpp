@@ -320,7 +320,7 @@ TEST_F(Outputs, OfOneCommandAreApart) {
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a", "--beside", "klt=a"});
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a", "--beside", "klt=a/klt"});
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a/b", "--beside", "klt=a"});
-  expect_refused({"preview", "scenarios/mine.yaml", "--out", "same.x", "--mjcf", "same.x"});
+  expect_refused({"preview", "scenarios/mine.yaml", "--out", "same.html", "--mjcf", "same.html"});
   expect_refused({"score", "run", "--out", "same.x", "--write-detections", "./same.x"});
 }
 
@@ -332,10 +332,10 @@ TEST_F(Outputs, AreAllOldWhereOneOfThemCannotBe) {
   Arguments again = both;
   again.insert(again.end(), {"--seed", "7"});
   expect_refused(again);
-  const Arguments files{"preview",  "scenarios/mine.yaml", "--quiet", "--mjcf", "keep.xml", "--out",
-                        "notes.txt"};
+  const Arguments files{"preview", "scenarios/mine.yaml", "--quiet", "--mjcf", "keep.xml",
+                        "--out",   "notes.html"};
   write(home_.path() / "keep.xml", "precious");
-  write(home_.path() / "notes.txt", "precious");
+  write(home_.path() / "notes.html", "precious");
   expect_refused(files);
 }
 
