@@ -108,7 +108,8 @@ app::Options options_of(RunOptions& options) {
           {.prints = scenario::keys_text});
   all.add("--view", "", &options.view,
           "Show the four panels in a window while it runs, no faster than the camera: space pauses "
-          "and goes on, . goes on by one frame, q closes the window");
+          "and goes on, . goes on by one frame, q closes it; the last frame stays until a key is "
+          "pressed");
   all.add_quiet(options.quiet);
   return all;
 }

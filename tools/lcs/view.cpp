@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/pictures/media.h"
 #include "sim/base/trial.h"
+#include "sim/pictures/media.h"
 #include "tools/lcs/interrupt.h"
 
 namespace lcs::tools {
@@ -71,7 +71,7 @@ void Player::after_last_frame() {
 }
 
 View::View(const std::string& title, double frames_per_second)
-    : title_(title + ": space pauses, . goes on by one frame, q closes"),
+    : title_(title + ": space pauses, . goes on by one frame, q closes; the last frame stays"),
       player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
   require_display(title_);
   sim::windows().named_window(title_,
