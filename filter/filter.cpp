@@ -1,6 +1,7 @@
 #include "filter/filter.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 
 #include "filter/circles/circle_expert.h"
 #include "filter/edges/edge_expert.h"
+#include "filter/edges/explanation.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
@@ -44,6 +46,7 @@ struct Filter::Impl {
   EgoMotion last;  ///< the motion used for the last frame; without time if none was
   Diagnostics diagnostics;
   LineExpert line;
+  std::span<const int> sources;  ///< the caller's index of each corner of chi, in the last frame
   EdgeExpert edge_expert;
   CircleExpert circle_expert;
   RadialMovers radial;
@@ -81,6 +84,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
 
   const Chi& chi = line.collect(corners_px, signatures, {});
   count_rejected(chi, diagnostics);
+  sources = chi.sources;
   result.times.line_ms = watch.lap_ms();
 
   const EgoMotion as_before = last_motion_over(*motion);
@@ -142,6 +146,15 @@ const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
                                 GapView* view) {
   validate(corners_px, signatures);
   return impl_->step(corners_px, signatures, motion, view);
+}
+
+std::optional<Explanation> Filter::explain(int corner) const {
+  const std::span<const int> sources = impl_->sources;
+  const auto found = std::ranges::find(sources, corner);
+  if (found == sources.end()) return std::nullopt;
+  Explanation said = impl_->edge_expert.explain(static_cast<std::size_t>(found - sources.begin()));
+  for (Voice& voice : said.voices) voice.corner = sources[static_cast<std::size_t>(voice.corner)];
+  return said;
 }
 
 const Diagnostics& Filter::diagnostics() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "filter/kinematics/camera.h"
@@ -15,6 +16,8 @@
 #include "filter/types/signature.h"
 
 namespace lcs {
+
+struct Explanation;
 
 /// Deterministic: the same corners, signatures and motions give the same bits, for any order of the
 /// corners of a frame.
@@ -44,6 +47,10 @@ class Filter {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& motion,
                           GapView* view = nullptr);
+
+  /// The numbers behind the verdict on a corner of the last frame (`edges/explanation.h`).
+  /// \param corner index in the caller's list. \return absent if the filter has left it out.
+  std::optional<Explanation> explain(int corner) const;
 
   /// Counts of the faults in the data so far.
   const Diagnostics& diagnostics() const;

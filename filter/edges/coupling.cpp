@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "filter/edges/explanation.h"
 #include "filter/edges/gauss.h"
 #include "filter/vectors/refill.h"
 #include "filter/vectors/vectors.h"
@@ -97,6 +98,19 @@ void Coupling::follow(std::span<const Node> nodes, const PointGrid& grid) {
       least2 = apart2;
     });
   }
+}
+
+std::vector<Voice> Coupling::voices(int node, const PointGrid& grid) const {
+  std::vector<float> one(grid.size() + kLanes), weights(grid.size() + kLanes);
+  for (std::size_t k = 0; k < grid.size(); ++k) one[k] = grid.index_at(k) == node ? 1 : 0;
+  loops().tied_sums({first_.data(), starts_.data(), weights_.data()}, one.data(), grid.size(),
+                    weights.data());
+  std::vector<Voice> voices;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (weights[k] > 0) voices.push_back({grid.index_at(k), weights[k], tanh_[k]});
+  }
+  std::ranges::stable_sort(voices, std::ranges::greater(), &Voice::weight);
+  return voices;
 }
 
 }  // namespace lcs

@@ -19,6 +19,8 @@
 
 namespace lcs {
 
+struct Voice;
+
 class Coupling {
  public:
   explicit Coupling(const EdgeParameters& parameters) : parameters_(parameters) {}
@@ -38,6 +40,10 @@ class Coupling {
   ///   if each lies within the other's r; of equally near ones the largest. Else its own log odds.
   const std::vector<double>& settle(std::span<const Node> nodes, const Neighbourhood& around,
                                     double noise2_px2, double most);
+
+  /// What a node was told by each node that it is tied to, in the last `settle`; heaviest first.
+  /// \param grid of its neighbourhood.
+  std::vector<Voice> voices(int node, const PointGrid& grid) const;
 
  private:
   void place(std::span<const Node> nodes, const Neighbourhood& around);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "filter/edges/explanation.h"
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/vectors/refill.h"
@@ -386,6 +387,24 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
   }
   decide(chi, field);
   return result_;
+}
+
+Explanation EdgeExpert::explain(std::size_t corner) const {
+  Explanation said;
+  said.track = tracks_.records[corner].id;
+  said.age = tracks_.records[corner].age;
+  for (std::size_t i = 0; i < kTrackColumns; ++i) said.seen[i] = tracks_.columns[i][corner];
+  if (track_of_[corner] >= 0) {
+    const auto t = static_cast<std::size_t>(track_of_[corner]);
+    said.assigned = predicted_.records[t].id;
+    for (std::size_t i = 0; i < kTrackColumns; ++i) said.predicted[i] = predicted_.columns[i][t];
+    said.static_spread_px2 = predicted_.static_spread(t, double{said.seen[kSeenNoise2]});
+  }
+  if (tracks_.has_motion(corner)) {
+    said.shown = shown_[corner];
+    said.voices = coupling_.voices(static_cast<int>(corner), around_.grid());
+  }
+  return said;
 }
 
 }  // namespace lcs

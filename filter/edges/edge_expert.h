@@ -22,6 +22,8 @@
 
 namespace lcs {
 
+struct Explanation;
+
 /// The motion that a frame's edges are made with.
 enum class UsedMotion : std::uint8_t {
   told,
@@ -51,6 +53,9 @@ class EdgeExpert {
 
   /// Drops all tracks.
   void forget();
+
+  /// \param corner of the last frame's chi. The corners in the result are of chi, too.
+  Explanation explain(std::size_t corner) const;
 
  private:
   void take(const Chi& chi);

@@ -46,7 +46,12 @@ enum TrackColumn : std::uint8_t {
   kStaticMost,  ///< 1/px^2: the largest density of a sighting, times the chance of being static
   kMovingP,     ///< the same if it moves
   kMovingMost,
-  kAnywhere,  ///< 1/px^2: density of a sighting that neither explains
+  kAnywhere,       ///< 1/px^2: density of a sighting that neither explains
+  kStaticDensity,  ///< 1/px^2: p_S, (12); of the sighting that made the state, like the next
+  kMovingDensity,  ///< 1/px^2: p_M, (13)
+  kWrongDensity,   ///< 1/px^2: phi, (15)
+  kLogOddsBefore,  ///< L', (15)
+  kSeenNoise2,     ///< px^2: sigma^2, (17)
   kTrackColumns
 };
 

@@ -569,6 +569,11 @@ Misses see(const TrackFrame& frame, const float* const* predicted, const Sightin
     sum_weight += keeps ? stands : none;
 
     __builtin_memcpy(kept + i, &keeps, sizeof keeps);
+    store(still, after[kStaticDensity] + i);
+    store(moving, after[kMovingDensity] + i);
+    store(wrong, after[kWrongDensity] + i);
+    store(log_of(before), after[kLogOddsBefore] + i);
+    store(noise2, after[kSeenNoise2] + i);
     store(x, after[kPlaceX] + i);
     store(y, after[kPlaceY] + i);
     for (const int column : {kSince_s, kShiftX_m, kShiftY_m, kShiftZ_m, kBelief}) {

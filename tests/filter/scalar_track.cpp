@@ -219,37 +219,46 @@ Track predicted(const Track& track, const Intrinsics& camera, const MotionField&
   return next;
 }
 
-bool see(Track& track, const Vec2& x_px, double chance_ppx2, const Intrinsics& camera,
-         const MotionField& field, const EdgeParameters& parameters, const Noise& noise) {
+Densities densities_of(const Track& track, const Vec2& x_px, const Intrinsics& camera,
+                       const MotionField& field, const EdgeParameters& parameters,
+                       double noise2_px2) {
   const DepthBounds bounds = depth_bounds(field, x_px);
-  const double turnover = parameters.turnover(field.dt_s()), right = 1 - turnover;
   const double kind = parameters.kind_turnover(field.dt_s());
-  const double anywhere = turnover / parameters.reach_area_px2(field.dt_s());
-  const double noise2 =
-      std::max(1.0 / 12, (parameters.neighbours * noise.now_px2 + track.noise_sum_px2) /
-                             (parameters.neighbours + track.noise_weight));
-  const double first2 = noise2 + std::pow(parameters.ego_share * (x_px - track.place_px).norm(), 2);
+  const double first2 =
+      noise2_px2 + std::pow(parameters.ego_share * (x_px - track.place_px).norm(), 2);
   StaticPoint seen = track.as_static;
-  double still = seen.update(x_px, track.has_motion() ? noise2 : first2, bounds);
+  double still = seen.update(x_px, track.has_motion() ? noise2_px2 : first2, bounds);
   double moving = 0, before = 0;
   if (!track.has_motion()) {
     const Vec2 parallax = parallax_px_m(camera, track.displacement_C_m, track.place_px);
     moving = Step(x_px - track.place_px, parallax, bounds)
-                 .density_of_mover(parameters.reach_px(track.since_s), noise2);
+                 .density_of_mover(parameters.reach_px(track.since_s), noise2_px2);
     before = log_odds(parameters.prior) + parameters.newcomer;
   } else {
-    moving = track.as_moving.density(x_px, noise2);
+    moving = track.as_moving.density(x_px, noise2_px2);
     before = log_odds(chance(track.log_odds) * (1 - kind) + parameters.prior * kind);
   }
   if (track.log_odds > 0) {
     StaticPoint rested =
-        StaticPoint::seen_once(track.place_px, camera, field, track.displacement_C_m, noise2);
+        StaticPoint::seen_once(track.place_px, camera, field, track.displacement_C_m, noise2_px2);
     const double anew = rested.update(x_px, first2, bounds), moved = chance(track.log_odds);
     const double was_still = (1 - moved) * (1 - kind * parameters.prior) * still;
     const double rests = moved * kind * (1 - parameters.prior) * anew;
     still = (was_still + rests) / (1 - chance(before));
     if (rests > was_still) seen = rested;
   }
+  return {still, moving, before, seen};
+}
+
+bool see(Track& track, const Vec2& x_px, double chance_ppx2, const Intrinsics& camera,
+         const MotionField& field, const EdgeParameters& parameters, const Noise& noise) {
+  const double turnover = parameters.turnover(field.dt_s()), right = 1 - turnover;
+  const double anywhere = turnover / parameters.reach_area_px2(field.dt_s());
+  const double noise2 =
+      std::max(1.0 / 12, (parameters.neighbours * noise.now_px2 + track.noise_sum_px2) /
+                             (parameters.neighbours + track.noise_weight));
+  const auto [still, moving, before, seen] =
+      densities_of(track, x_px, camera, field, parameters, noise2);
   if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
   const double none = anywhere + chance_ppx2;
   const double evidence = std::log((right * moving + none) / (right * still + none));

@@ -174,6 +174,16 @@ struct Noise {
 Track predicted(const Track& track, const Intrinsics& camera, const MotionField& field,
                 const EdgeParameters& parameters, const Noise& noise);
 
+/// Densities of a sighting, given the predicted track, and the log odds before it.
+struct Densities {
+  double still_ppx2, moving_ppx2, log_odds_before;
+  StaticPoint seen;  ///< the static point after the sighting
+};
+/// \param noise2_px2 of the track's corners.
+Densities densities_of(const Track& track, const Vec2& x_px, const Intrinsics& camera,
+                       const MotionField& field, const EdgeParameters& parameters,
+                       double noise2_px2);
+
 /// Updates a predicted track by a sighting.
 /// \param chance_ppx2 density of wrong pairs that look as good.
 /// \return false if neither hypothesis explains the sighting; the track is then unchanged.
