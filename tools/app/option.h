@@ -135,7 +135,7 @@ void read_into(T& out, const input::Value& word, const Option::More& more) {
   } else if constexpr (std::is_same_v<T, int>) {
     out = static_cast<int>(input::as_integer(word, "the number", 1, more.high));
   } else if constexpr (kKindOf<T> == Option::Kind::whole) {
-    out = input::as_seed(word, "the seed");
+    out = input::as_seed(word, "the number");
   } else if constexpr (kKindOf<T> == Option::Kind::number) {
     out = input::as_quantity(word, "the number", more.quantity);
   } else if constexpr (kKindOf<T> == Option::Kind::text) {

@@ -195,11 +195,15 @@ std::string command_of(const RunRequest& request, const scenario::Scenario& scen
 /// Writes run.json.
 void write_how_made(const RunRequest& request, const scenario::Scenario& scenario,
                     const Frames& frames, const Watching& watching, bool is_own) {
+  files::Json filter = files::Json::object();
+  for (const auto& setting : watching.scenario.filter) filter[setting.key] = setting.value;
   files::Json facts{{"scenario", scenario.name},
                     {"seed", scenario.seed},
                     {"frames", watching.result->frames()},
                     {"detector", watching.spec.name},
                     {"settings", request.sets},
+                    {"preset", watching.scenario.filter_preset},
+                    {"filter", filter},
                     {"recorded", request.recorded}};
   add_program(facts, frames.versions);
   app::write_how_made(watching.result->output().staging(),

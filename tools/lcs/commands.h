@@ -16,6 +16,7 @@ Command suite_command();
 Command merge_command();
 Command generate_command();
 Command compare_command();
+Command explain_command();
 Command kinematics_command();
 Command world_command();
 Command tune_command();

@@ -33,6 +33,7 @@ through its camera and IMU, and the simulator's truth scores the filter.
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
+  lcs explain RUN FRAME X Y           why the filter called a corner a rebel, or did not
   lcs world FAMILY                    a scenario and its scene, drawn from a seed
   lcs tune out/train                  the filter's numbers, learnt from recorded worlds
   lcs kinematics                      when the motion model holds, for your camera and rover
@@ -54,7 +55,7 @@ int main(int argc, char** argv) {
     const int exit_code =
         run_command_line({run_command(), preview_command(), replay_command(), score_command(),
                           suite_command(), merge_command(), generate_command(), compare_command(),
-                          kinematics_command(), world_command(), tune_command()},
+                          explain_command(), kinematics_command(), world_command(), tune_command()},
                          kHelp, argc, argv);
     finish_out();
     return exit_code;

@@ -32,15 +32,6 @@ CornerOutcome corrected(CornerOutcome outcome) {
                                                   : outcome;
 }
 
-Difficulty difficulty(const recording::FrameRecord& frame, std::size_t corner) {
-  const sim::CornerTruth& truth = frame.corner_truth[corner];
-  if (truth.outline) return Difficulty::outline;
-  if (truth.label == sim::Label::rebel && truth.radial) return Difficulty::radial;
-  const Reason reason = frame.reasons.empty() ? Reason::unknown : frame.reasons[corner];
-  const bool first = reason == Reason::first_sighting || reason == Reason::inherited;
-  return first ? Difficulty::first_seen : Difficulty::tracked;
-}
-
 /// The number of corners with the verdict rebel, by object.
 std::map<int, int> rebels_by_object(const recording::FrameRecord& frame) {
   std::map<int, int> rebels;
@@ -73,6 +64,15 @@ RebelCounts add_to(RebelCornerScore& score, const recording::FrameRecord& frame,
 }
 
 }  // namespace
+
+Difficulty difficulty(const recording::FrameRecord& frame, std::size_t corner) {
+  const sim::CornerTruth& truth = frame.corner_truth[corner];
+  if (truth.outline) return Difficulty::outline;
+  if (truth.label == sim::Label::rebel && truth.radial) return Difficulty::radial;
+  const Reason reason = frame.reasons.empty() ? Reason::unknown : frame.reasons[corner];
+  const bool first = reason == Reason::first_sighting || reason == Reason::inherited;
+  return first ? Difficulty::first_seen : Difficulty::tracked;
+}
 
 std::vector<CornerOutcome> corner_outcomes(const recording::FrameRecord& frame,
                                            const ObjectDetections& detections) {

@@ -42,6 +42,7 @@ enum class Difficulty : std::uint8_t {
   first_seen,  ///< detected for the first time; only its neighbours give information
   tracked,     ///< any other
 };
+Difficulty difficulty(const recording::FrameRecord& frame, std::size_t corner);
 
 struct RebelCornerScore {
   RebelCounts overall;

@@ -1,0 +1,163 @@
+// `lcs explain` from its command line, on the output of `lcs run`.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/tools/command.h"
+#include "tests/tools/files.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/recording/recording_io.h"
+
+namespace lcs::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+constexpr int kFrame = 5;
+
+class ExplainCommand : public testing::Test {
+ protected:
+  /// A run, made once.
+  static void SetUpTestSuite() {
+    made_ = std::make_unique<TemporaryFolder>();
+    const CommandResult result =
+        lcs({"run", fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml", "--set", "frames=8", "--set",
+             "filter.hypotheses.prior=0.05", "--no-video", "--events", "--quiet", "--out", "run"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  static void TearDownTestSuite() { made_.reset(); }
+
+  static CommandResult lcs(const Arguments& arguments) {
+    return run_lcs(arguments, {.folder = made_->path()});
+  }
+  static fs::path home() { return made_->path(); }
+  static recording::FrameRecord frame() {
+    return recording::read_recording(home() / "run").frames.at(kFrame);
+  }
+  /// One that has a corner in this frame and in the frame before.
+  static std::string track() {
+    for (const Edge& edge : frame().layers.normal_edges) {
+      if (edge.corner >= 0 && edge.age >= 3 && edge.trust > 5) return std::to_string(edge.id);
+    }
+    ADD_FAILURE() << "no static corner is followed";
+    return "1";
+  }
+  /// A copy of the run without its pictures.
+  static fs::path copy(const std::string& name) {
+    const fs::path folder = home() / name;
+    fs::create_directory(folder);
+    for (const char* file :
+         {"layers.jsonl", "truth.jsonl", "camera.json", "detector.json", "run.json"}) {
+      fs::copy_file(home() / "run" / file, folder / file, fs::copy_options::overwrite_existing);
+    }
+    return folder;
+  }
+  /// Refused in one line, with the remedy, and nothing is written.
+  static void expect_refused(Arguments arguments, const std::string& said) {
+    arguments.insert(arguments.begin(), "explain");
+    const CommandResult result = lcs(arguments);
+    EXPECT_EQ(result.exit_code, 2) << said;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(said), std::string::npos) << said << "\n" << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  }
+
+ private:
+  static std::unique_ptr<TemporaryFolder> made_;
+};
+std::unique_ptr<TemporaryFolder> ExplainCommand::made_;
+
+TEST_F(ExplainCommand, StatesTheNumbersOfACornerWithTheirEquations) {
+  const recording::FrameRecord seen = frame();
+  const auto rebel = std::ranges::find(seen.reasons, Reason::rebel_edge);
+  ASSERT_NE(rebel, seen.reasons.end());
+  const auto i = static_cast<std::size_t>(rebel - seen.reasons.begin());
+  const std::string x = fmt::format("{}", seen.corners_px[i].x() + 1),
+                    y = fmt::format("{}", seen.corners_px[i].y());
+  const CommandResult result = lcs({"explain", "run", std::to_string(kFrame), x, y});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* part : {"crossing frame 5", "verdict  rebel by rebel_edge", "truth    ",
+                           "(1)      x_r, px = (", "(2), (4) x', px = (", "(12)     p_S, 1/px^2 = ",
+                           "(13)     p_M, 1/px^2 = ", "(15)     phi, 1/px^2 = ", "L' = ",
+                           "(34)     L_C = ", "(20)     rebel_edge\n", "frame  miss static"}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " in\n" << result.out;
+  }
+  std::smatch m, last;
+  ASSERT_TRUE(std::regex_search(result.out, m, std::regex(R"(\(18\) +m = (-?[\d.]+))")));
+  EXPECT_NEAR(std::stod(m[1]), seen.log_odds[i], 0.006);
+  // The last line is that of the frame.
+  const std::regex row(R"((\d+) +[-\d.e+]+ +[-\d.e+]+ +-?[\d.]+ +(-?[\d.]+)  rebel[^\n]*\n$)");
+  ASSERT_TRUE(std::regex_search(result.out, last, row)) << result.out;
+  EXPECT_EQ(last[1], std::to_string(kFrame));
+  EXPECT_NEAR(std::stod(last[2]), seen.log_odds[i], 0.011);
+
+  std::smatch track;
+  ASSERT_TRUE(std::regex_search(result.out, track, std::regex(R"(track +(\d+),)")));
+  EXPECT_EQ(lcs({"explain", "run", std::to_string(kFrame), "--track", track[1]}).out, result.out);
+}
+
+TEST_F(ExplainCommand, ExplainsEveryCornerOfAFrame) {
+  const recording::FrameRecord seen = frame();
+  for (std::size_t i = 0; i < seen.corners_px.size(); i += seen.corners_px.size() / 6) {
+    const Eigen::Vector2f& x = seen.corners_px[i];
+    const CommandResult result = lcs({"explain", "run", std::to_string(kFrame),
+                                      fmt::format("{}", x.x()), fmt::format("{}", x.y())});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find(fmt::format("({:.2f}, {:.2f})", x.x(), x.y())), std::string::npos);
+  }
+}
+
+TEST_F(ExplainCommand, RefusesWhatItCannotExplain) {
+  expect_refused({"run", "8", "100", "100"}, "run has no frame 8; give one below 8");
+  expect_refused({"run", "-1", "100", "100"}, "");
+  expect_refused({"run", "5"}, "give the corner by X and Y, or by --track");
+  expect_refused({"run", "5", "--track", "1000000"}, "no corner of the frame is on track 1000000");
+  const Eigen::Vector2f first = frame().corners_px.front();
+  expect_refused({"run", "5", fmt::format("{}", first.x()), "5000"}, " px away");
+  fs::create_directory(home() / "empty");
+  expect_refused({"empty", "5", "100", "100"}, "empty has no frames; name a run");
+  expect_refused({"nowhere", "5", "100", "100"}, "nowhere has no frames; name a run");
+}
+
+TEST_F(ExplainCommand, RefusesRunsOfOtherDetectorsAndOtherFilters) {
+  const fs::path crossing = fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml";
+  for (const std::string detector : {"klt", "lcs:lab"}) {
+    ASSERT_EQ(lcs({"run", crossing, "--set", "frames=4", "--no-video", "--quiet", "--detector",
+                   detector, "--out", "other"})
+                  .exit_code,
+              0);
+    expect_refused({"other", "3", "--track", "1"}, "with --detector lcs:default");
+  }
+  // A filter with other parameters than those that its run states.
+  const fs::path changed = copy("changed");
+  std::string how = read(changed / "run.json");
+  const std::string was = R"("hypotheses.prior": "0.05")";
+  ASSERT_NE(how.find(was), std::string::npos) << how;
+  how.replace(how.find(was), was.size(), R"("hypotheses.prior": "0.2")");
+  write(changed / "run.json", how);
+  expect_refused({"changed", "5", "--track", "1"}, "make it again");
+}
+
+TEST_F(ExplainCommand, RefusesARunWhoseVerdictsWereEdited) {
+  const fs::path edited = copy("edited");
+  std::string layers = read(edited / "layers.jsonl");
+  std::size_t line = 0;
+  for (int k = 0; k < kFrame; ++k) line = layers.find('\n', line) + 1;
+  const std::size_t verdict = layers.find("\"normal\"", line);
+  ASSERT_LT(verdict, layers.find('\n', line));
+  layers.replace(verdict, 8, "\"rebel\"");
+  write(edited / "layers.jsonl", layers);
+  expect_refused({"edited", "5", "--track", "1"}, "the verdicts in frame 5 are not this filter's");
+  const CommandResult before = lcs({"explain", "edited", "4", "--track", track()});
+  EXPECT_EQ(before.exit_code, 0) << before.err;
+}
+
+}  // namespace
+}  // namespace lcs::test
