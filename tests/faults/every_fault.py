@@ -135,6 +135,9 @@ def cases():
     yield Case("score --write-detections",
                ["score", "base", "--quiet", "--write-detections", "made.txt"], file, files=one,
                before=record, never_torn=False)
+    yield Case("explain --picture",
+               ["explain", "base", "0", "--track", "1", "--picture", "made.txt"], file, files=one,
+               before=record, never_torn=False)
     yield Case("replay", replayed + ["--out", "made"], made, files=one, before=pictures,
                earlier=[replayed + ["--out", "made", "--set", "hypotheses.prior=0.1"]])
     yield Case("replay --write", replayed[:-1] + ["--write", "made.txt"], file, files=one,

@@ -292,6 +292,7 @@ Input stored_run(const fs::path& folder) {
   return {{"run"},
           {{"score", "run", "--out", "out.json"},
            {"score", "run", "--write-detections", "out.csv"},
+           {"explain", "run", "1", "--track", "1", "--picture", "out.png"},
            joined(kCrossing, {"--recorded", "run", "--no-video", "--events", "--out", "out"}),
            joined(kCrossing, {"--recorded", "run", "--report", "--out", "out"})}};
 }

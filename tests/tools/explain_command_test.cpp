@@ -61,11 +61,13 @@ class ExplainCommand : public testing::Test {
   /// Refused in one line, with the remedy, and nothing is written.
   static void expect_refused(Arguments arguments, const std::string& said) {
     arguments.insert(arguments.begin(), "explain");
+    arguments.insert(arguments.end(), {"--picture", "no.png"});
     const CommandResult result = lcs(arguments);
     EXPECT_EQ(result.exit_code, 2) << said;
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.err.find(said), std::string::npos) << said << "\n" << result.err;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(home() / "no.png"));
   }
 
  private:
@@ -112,6 +114,27 @@ TEST_F(ExplainCommand, ExplainsEveryCornerOfAFrame) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find(fmt::format("({:.2f}, {:.2f})", x.x(), x.y())), std::string::npos);
   }
+}
+
+TEST_F(ExplainCommand, DrawsAPictureAndSaysIfTheRunKeptNone) {
+  const Arguments asked{"explain", "run", std::to_string(kFrame), "--track", track(), "--picture"};
+  Arguments one = asked;
+  one.emplace_back("seen.png");
+  const CommandResult seen = lcs(one);
+  ASSERT_EQ(seen.exit_code, 0) << seen.err;
+  EXPECT_EQ(seen.err, "");
+  copy("blind");
+  Arguments other = asked;
+  other[1] = "blind";
+  other.emplace_back("blind.png");
+  const CommandResult blind = lcs(other);
+  ASSERT_EQ(blind.exit_code, 0) << blind.err;
+  EXPECT_NE(blind.err.find("blind has no pictures"), std::string::npos) << blind.err;
+  EXPECT_EQ(blind.out, seen.out);
+  const std::string a = read(home() / "seen.png"), b = read(home() / "blind.png");
+  EXPECT_TRUE(a.starts_with("\x89PNG"));
+  EXPECT_TRUE(b.starts_with("\x89PNG"));
+  EXPECT_GT(a.size(), b.size()) << "the picture of the frame is in it";
 }
 
 TEST_F(ExplainCommand, RefusesWhatItCannotExplain) {

@@ -142,6 +142,7 @@ class Outputs : public testing::Test {
         {"suite", {"suite", "scenarios/mine.yaml", "--seeds", "1", "--quiet"}},
         {"merge", {"merge", "part", "--quiet"}},
         {"compare", {"compare", "suite", "suite"}},
+        {"explain", {"explain", "run", "0", "--track", "1"}},
         {"generate", {"generate", "scenarios/mine.yaml", "--formats", "tum", "--quiet"}},
         {"kinematics", {"kinematics", "--config", "scenarios/mine.yaml", "--quick", "--quiet"}},
         {"world", {"world", "room", "--pictures", "pictures", "--quiet"}},
@@ -154,7 +155,7 @@ class Outputs : public testing::Test {
   static Arguments naming(const Option& option, const std::string& target) {
     Arguments all = use_of(option);
     if (option.name != "--out" && option.command != "score" && option.command != "compare" &&
-        option.name != "--write") {
+        option.command != "explain" && option.name != "--write") {
       all.insert(all.end(), {"--out", option.command == "preview" ? "other.html" : "other"});
     }
     all.insert(all.end(), {option.name, option.type == "NAME=DIR" ? "klt=" + target : target});
@@ -288,6 +289,7 @@ TEST_F(Outputs, AreNoInputsNorLieInsideOrRoundThem) {
       {"suite", {"scenarios/mine.yaml", "scenarios"}},
       {"merge", {"part", "part/deep/out"}},
       {"compare", {"suite", "suite/deep/out"}},
+      {"explain", {"run", "run/layers.jsonl"}},
       {"generate", {"scenarios/mine.yaml", "scenarios"}},
       {"kinematics", {"scenarios/mine.yaml", "scenarios"}},
       {"world", {"pictures", "pictures/deep/world"}},

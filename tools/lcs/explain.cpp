@@ -8,33 +8,44 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tools/bench/bench.h"
+#include "tools/files/output.h"
 #include "tools/files/provenance.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/output/panels.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/score_rebels.h"
+#include "tools/sequence/png.h"
 
 namespace lcs::tools {
 namespace {
+
+namespace colour = output::colour;
 
 struct ExplainOptions {
   std::string run;  ///< folder
   std::uint64_t frame = 0;
   std::optional<double> x_px, y_px;  ///< near the corner
   std::optional<Id> track;           ///< in place of x and y
+  std::string picture;               ///< PNG file; "": none
+  bool force = false;
 };
 
 constexpr const char* kExplainHelp = R"(Examples:
   lcs explain out/crossing 12 506 240                      the corner within 3 px of (506, 240) in frame 12
   lcs explain out/crossing 12 --track 345                  the corner on this track
+  lcs explain out/crossing 12 506 240 --picture why.png    also as a picture
 
 The filter goes over the frames of the run again, and has to come to the stored verdicts. Each number stands
-behind its equation of filter/MODEL.md; the last lines are the sightings of the track.
+behind its equation of filter/MODEL.md; the last lines are the sightings of the track. In the picture the line
+to a neighbour is as wide as its weight, red if it said that it moves, blue if it stands.
 )";
 
 /// A corner of a track in a frame.
@@ -268,6 +279,79 @@ std::string history_text(const Explained& said) {
   return text;
 }
 
+// ---- Picture
+
+constexpr int kWidth_px = 768, kHeight_px = 576, kPlot_px = 180;
+const cv::Scalar kGrey = cv::Scalar::all(120), kWhite = cv::Scalar::all(255);
+
+/// The values of the history as dots over its frames.
+void plot(const std::vector<Sighting>& history, cv::Mat3b strip) {
+  constexpr double kMost = 12;  // ends of the strip, at which values are cut off
+  const int first = history.front().frame, frames = history.back().frame - first;
+  const auto dot = [&](int frame, double value, const cv::Scalar& ink) {
+    const double x = 8 + (strip.cols - 16.0) * (frame - first) / std::max(1, frames);
+    const double y = (0.5 - 0.45 * std::clamp(value / kMost, -1.0, 1.0)) * strip.rows;
+    if (!std::isnan(value)) cv::circle(strip, {cvRound(x), cvRound(y)}, 3, ink, cv::FILLED);
+  };
+  cv::line(strip, {0, strip.rows / 2}, {strip.cols, strip.rows / 2}, kGrey);
+  cv::putText(strip, "-12 to 12: L grey, m white; misses in px, static blue, moving red",
+              {8, strip.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, kWhite, 1, cv::LINE_AA);
+  for (const Sighting& one : history) {
+    dot(one.frame, one.miss_px(kStaticX), colour::kNormalEdge);
+    dot(one.frame, one.miss_px(kMovingX), colour::kRebel);
+    dot(one.frame, double{one.why.seen[kLogOdds]}, kGrey);
+    dot(one.frame, double{one.why.seen[kBelief]}, kWhite);
+  }
+}
+
+/// The surroundings of the corner with its predictions and neighbours; below, its history.
+/// \param kept picture of the frame. \param scale px of it for each of the camera.
+cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& kept, double scale) {
+  constexpr int kZoom = 6;
+  const Sighting& now = said.history.back();
+  const cv::Point middle(kWidth_px / 2, kHeight_px / 2);
+  const auto at = [&](const Vec2& x) {
+    const Vec2 off = kZoom * scale * (x - now.place_px());
+    return middle + cv::Point(cvRound(off.x()), cvRound(off.y()));
+  };
+  cv::Mat3b picture(kHeight_px + kPlot_px, kWidth_px, cv::Vec3b::all(0));
+  cv::Mat3b scene = picture.rowRange(0, kHeight_px), part;
+  const Vec2 centre = scale * (now.place_px() + Vec2(0.5, 0.5)) - Vec2(0.5, 0.5);
+  cv::getRectSubPix(kept, scene.size() / kZoom, cv::Point2d(centre.x(), centre.y()), part);
+  cv::resize(part, scene, scene.size(), 0, 0, cv::INTER_CUBIC);
+  for (const auto& [corner, weight, belief] : now.why.voices) {
+    const double sure = std::abs(double{belief});
+    const cv::Scalar ink = belief > 0 ? colour::kRebel : colour::kNormalEdge;
+    cv::line(scene, middle, at(said.place_px(corner)), sure * ink + (1 - sure) * kGrey,
+             1 + cvRound(5 * weight), cv::LINE_AA);
+  }
+  const auto cross = [&](TrackColumn x, const cv::Scalar& ink) {
+    if (std::isnan(now.miss_px(x))) return;
+    for (const auto& [each, width] : {std::pair(kWhite, 5), std::pair(ink, 2)}) {
+      cv::drawMarker(scene, at(now.predicted_px(x)), each, cv::MARKER_TILTED_CROSS, 16, width);
+    }
+  };
+  cv::circle(scene, middle, 7, kWhite, 2, cv::LINE_AA);
+  cross(kStaticX, colour::kNormalEdge);
+  cross(kMovingX, colour::kRebel);
+  plot(said.history, picture.rowRange(kHeight_px, picture.rows));
+  return picture;
+}
+
+void write_picture(const ExplainOptions& options, const Explained& said) {
+  const std::filesystem::path file = std::filesystem::path(options.run) / output::kPicturesFile;
+  const cv::Size size(said.run.camera->width_px, said.run.camera->height_px);
+  cv::Mat3b kept(size, cv::Vec3b::all(0));
+  double scale = 1;
+  const bool is_there = std::filesystem::exists(file);
+  if (is_there) kept = output::FramePictures(file, size).at(options.frame, scale);
+  files::Output picture(options.picture, files::overwrite(options.force));
+  files::write_file(picture.staging(),
+                    sequence::encode_png(picture_of(said, kept, scale), sequence::PngFilter::up));
+  picture.commit();
+  if (!is_there) tell(options.run + " has no pictures, only marks are drawn: --events keeps some");
+}
+
 ExitCode explain(const ExplainOptions& options) {
   if (!options.track && !options.x_px) {
     throw std::invalid_argument("give the corner by X and Y, or by --track");
@@ -277,6 +361,7 @@ ExitCode explain(const ExplainOptions& options) {
     print_out("{}", heading(said));
     return kFine;
   }
+  if (!options.picture.empty()) write_picture(options, said);
   print_out("{}{}{}", heading(said), numbers_text(said), history_text(said));
   return kFine;
 }
@@ -289,6 +374,8 @@ app::Options options_of(ExplainOptions& options) {
   all.add("Y", "", &options.y_px, "Row of the corner, px");
   all.add("--track", "N", &options.track, "The corner on this track, in place of X and Y",
           {.excludes = "X"});
+  all.add("--picture", "FILE", &options.picture, "Write a picture too (PNG)", {.is_output = true});
+  all.add_force(options.force);
   return all;
 }
 
