@@ -70,13 +70,11 @@ struct Explained {
   recording::FrameRecord frame;                  ///< that is asked for
   std::vector<scoring::CornerOutcome> outcomes;  ///< of its corners
   std::size_t corner = 0;                        ///< that is asked for
-  std::map<Id, std::vector<Sighting>> tracks;    ///< all, with their sightings up to the frame
+  std::map<Id, std::vector<Sighting>> tracks;    ///< that live then, with their sightings
   /// The sightings of the corner's track; empty if the filter has left the corner out.
   std::vector<Sighting> history;
 
-  Vec2 place_px(int i) const {
-    return frame.corners_px[static_cast<std::size_t>(i)].cast<double>();
-  }
+  Vec2 place_px(std::size_t i) const { return frame.corners_px[i].cast<double>(); }
   std::string on(int object) const {
     const auto named = std::ranges::find(run.objects, object, &sim::Object::id);
     return named == run.objects.end() ? "" : " on " + named->name;
@@ -164,11 +162,15 @@ Explained explained(const ExplainOptions& options) {
       said.tracks[why->track].push_back(
           {frame.index, i, frame.verdicts[i], frame.corner_truth[i].object, *why});
     }
+    std::erase_if(said.tracks, [&](const auto& track) {
+      return track.second.back().frame + plain->edge.coast < frame.index;  // it has ended
+    });
   }
   if (!options.track) said.corner = corner_at({*options.x_px, *options.y_px}, frame);
   for (const auto& [track, sightings] : said.tracks) {
     if (sightings.back().frame != frame.index) continue;
-    if (options.track ? track != *options.track : sightings.back().corner != said.corner) continue;
+    const bool is_there = sightings.back().place_px() == said.place_px(said.corner);
+    if (options.track ? track != *options.track : !is_there) continue;
     said.corner = sightings.back().corner;
     said.history = sightings;
   }
@@ -207,9 +209,8 @@ std::string heading(const Explained& said) {
       "verdict  {} by {}: {}\n"
       "truth    {}{}: {}, {}\n",
       said.run.scenario, said.frame.index, static_cast<double>(said.frame.t_ns) * 1e-9,
-      text_of(said.frame.corners_px[i].cast<double>()),
-      word(recording::kVerdicts, said.frame.verdicts[i]), reason.word, reason.meaning,
-      word(recording::kLabels, truth.label), said.on(truth.object),
+      text_of(said.place_px(i)), word(recording::kVerdicts, said.frame.verdicts[i]), reason.word,
+      reason.meaning, word(recording::kLabels, truth.label), said.on(truth.object),
       word(kOutcomes, said.outcomes[i]), word(kKinds, scoring::difficulty(said.frame, i)));
 }
 
@@ -250,7 +251,7 @@ std::string numbers_text(const Explained& said) {
       all += double{weight};
       pull += double{weight} * double{belief};
       text += fmt::format("(19)     k = {:.4f}, tanh(m/2) = {:+.4f} of {}\n", weight, belief,
-                          text_of(said.place_px(corner)));
+                          text_of(said.place_px(static_cast<std::size_t>(corner))));
     }
     add("(18)", "sum of k", all);
     add("(18)", "sum of k tanh(m/2)", pull);
@@ -322,8 +323,8 @@ cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& kept, double scale)
   for (const auto& [corner, weight, belief] : now.why.voices) {
     const double sure = std::abs(double{belief});
     const cv::Scalar ink = belief > 0 ? colour::kRebel : colour::kNormalEdge;
-    cv::line(scene, middle, at(said.place_px(corner)), sure * ink + (1 - sure) * kGrey,
-             1 + cvRound(5 * weight), cv::LINE_AA);
+    cv::line(scene, middle, at(said.place_px(static_cast<std::size_t>(corner))),
+             sure * ink + (1 - sure) * kGrey, 1 + cvRound(5 * weight), cv::LINE_AA);
   }
   const auto cross = [&](TrackColumn x, const cv::Scalar& ink) {
     if (std::isnan(now.miss_px(x))) return;
