@@ -36,6 +36,8 @@ class AnyFilter {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion,
                           GapView* view = nullptr);
   const Diagnostics& diagnostics() const;
+  /// Null if it is the paper's.
+  const Filter* plain() const { return std::get_if<Filter>(&filter_); }
 
  private:
   std::variant<Filter, paper::PaperFilter> filter_;

@@ -101,6 +101,7 @@ class LcsDetector : public Detector {
   }
   bool wants_signatures() const override { return true; }
   Diagnostics diagnostics() const override { return filter_.diagnostics(); }
+  const AnyFilter& filter() const { return filter_; }
 
  private:
   AnyFilter filter_;

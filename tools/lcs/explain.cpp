@@ -95,15 +95,10 @@ AnyParameters parameters_of(const std::string& run) {
 }
 
 /// Steps the filter, and requires that it judges the corners as stored.
-void step(const recording::FrameRecord& frame, const std::string& run, Filter& filter) {
-  bench::StoredGaps gaps;
-  if (frame.gaps) gaps.show(*frame.gaps);
-  GapView* const view = frame.gaps ? &gaps : nullptr;
-  recording::FrameRecord again;
-  bench::store_result(frame.signatures.empty()
-                          ? filter.step(frame.corners_px, frame.motion, view)
-                          : filter.step(frame.corners_px, frame.signatures, frame.motion, view),
-                      nullptr, 0, again);
+void step(const recording::FrameRecord& frame, const std::string& run,
+          bench::LcsDetector& detector) {
+  recording::FrameRecord again = recording::without_detections(frame);
+  bench::run_detector(detector, {}, {}, again);
   if (again.verdicts == frame.verdicts && again.reasons == frame.reasons &&
       again.log_odds == frame.log_odds) {
     return;
@@ -145,7 +140,8 @@ Explained explained(const ExplainOptions& options) {
                              " is no run of the default filter with its camera, which alone can be "
                              "explained; run the scenario with --detector lcs:default");
   }
-  Filter filter(*said.run.camera, *plain);
+  bench::LcsDetector detector(*said.run.camera, parameters);
+  const Filter& filter = *detector.filter().plain();
   scoring::RebelScorer scorer;
   const recording::FrameRecord& frame = said.frame;
   for (std::uint64_t k = 0; k <= options.frame; ++k) {
@@ -154,7 +150,7 @@ Explained explained(const ExplainOptions& options) {
       throw std::runtime_error(
           fmt::format("{} has no frame {}; give one below {}", options.run, options.frame, k));
     }
-    step(frame, options.run, filter);
+    step(frame, options.run, detector);
     said.outcomes = scorer.add(frame).outcomes;
     for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
       const std::optional<Explanation> why = filter.explain(static_cast<int>(i));
