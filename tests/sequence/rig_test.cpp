@@ -80,7 +80,7 @@ class View {
     cv::Mat1f depth;
     const cv::Mat code =
         cv::imread((own / fmt::format("depth/{:06}.png", k)).string(), cv::IMREAD_UNCHANGED);
-    code.convertTo(depth, CV_32F, 1 / kKittiDepthScale);
+    code.convertTo(depth, CV_32F, 1 / 256.0);  // KITTI: 256 codes a metre
     return depth;
   }
   Eigen::Isometry3d T_WC(int k) const {
