@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string_view>
 
@@ -82,9 +81,8 @@ void write_panels(const fs::path& run, const recording::FrameRecord& frame, cons
   const cv::Size size_px(info.camera->width_px, info.camera->height_px);
   cv::Mat3b image(size_px, cv::Vec3b(96, 96, 96));
   if (fs::exists(run / output::kPicturesFile)) {
-    const output::FramePictures pictures(run / output::kPicturesFile, size_px);
-    double scale = 1;
-    cv::resize(pictures.at(static_cast<std::size_t>(frame.index), scale), image, size_px);
+    image = output::FramePictures(run / output::kPicturesFile, size_px)
+                .image(static_cast<std::size_t>(frame.index));
   }
   const cv::Mat3b sheet = output::painted(output::PanelSheet(size_px), info, frame, image);
   files::write_file(file, sim::encode_jpeg(sheet, 85));
@@ -98,8 +96,7 @@ void write_summary(const CompareRequest& request, const ComparedFrames& compared
   const auto run = std::ranges::find_if(
       compared.runs, [](const RunFrames& each) { return each.difference.first.has_value(); });
   if (run != compared.runs.end()) {
-    constexpr std::size_t kMostCorners = 20;
-    text += fmt::format("\n```\n{}```\n\n", first_frame_text(*run, kMostCorners));
+    text += fmt::format("\n```\n{}```\n\n", first_frame_text(*run));
     const recording::FrameDifference& first = *run->difference.first;
     const auto picture = [&](const fs::path& run_folder, const char* name,
                              const std::optional<recording::FrameRecord>& frame) {
@@ -118,8 +115,7 @@ void write_summary(const CompareRequest& request, const ComparedFrames& compared
 }  // namespace
 
 ComparedFrames compare_frames(const CompareRequest& request) {
-  const std::string &before = request.before, &after = request.after;
-  const std::map<std::string, fs::path> was = runs_in(before), is = runs_in(after);
+  const std::map<std::string, fs::path> was = runs_in(request.before), is = runs_in(request.after);
   ComparedFrames compared;
   for (const auto& [name, folder] : is) {
     if (!was.contains(name)) compared.missing.push_back(fmt::format("{}: only after", name));
@@ -136,7 +132,7 @@ ComparedFrames compare_frames(const CompareRequest& request) {
   if (compared.runs.empty()) {
     throw std::runtime_error(fmt::format(
         "{} and {} have no run in common; give two runs, or two suites of the same scenarios",
-        before, after));
+        request.before, request.after));
   }
   std::ptrdiff_t different = 0, frames = 0, differing = 0;
   for (const RunFrames& run : compared.runs) {

@@ -55,7 +55,9 @@ struct ComparedFrames {
 ///   or the two have no run in common. \throws OutputError
 ComparedFrames compare_frames(const CompareRequest& request);
 
+inline constexpr std::size_t kMostCorners = 20;  ///< that a text lists unless all are asked for
+
 /// The first frame that differs, and a line for each of its corners that do, up to `most`.
-std::string first_frame_text(const RunFrames& run, std::size_t most);
+std::string first_frame_text(const RunFrames& run, std::size_t most = kMostCorners);
 
 }  // namespace lcs::app

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -58,7 +57,7 @@ void require_same(const fs::path& folder, const recording::RunInfo& recorded, in
 
 EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario,
                        const Intrinsics& camera)
-    : folder_(folder), camera_(camera) {
+    : folder_(folder) {
   if (!fs::exists(recording::stored(folder, recording::kLayersFile))) {
     throw std::runtime_error(
         fmt::format("there is no run in {} with its frames; name a folder that was made with "
@@ -78,20 +77,11 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   if (!info_.origin) info_.origin = scenario.origin;
   const fs::path pictures = folder / output::kPicturesFile;
   if (!fs::exists(pictures)) return;
-  pictures_.emplace(pictures, cv::Size(camera_.width_px, camera_.height_px));
+  pictures_.emplace(pictures, cv::Size(camera.width_px, camera.height_px));
   if (pictures_->size() != static_cast<std::size_t>(frames_)) {
     throw std::runtime_error(fmt::format("{} has {} pictures of {} frames; record the run again",
                                          pictures.string(), pictures_->size(), frames_));
   }
-}
-
-/// Resized to the camera's size.
-cv::Mat3b EarlierRun::image(std::size_t position) const {
-  double scale = 1;
-  cv::Mat3b picture = pictures_.value().at(position, scale);
-  const cv::Size size_px(camera_.width_px, camera_.height_px);
-  if (picture.size() != size_px) cv::resize(picture, picture, size_px, 0, 0, cv::INTER_LINEAR);
-  return picture;
 }
 
 RunEnd EarlierRun::run(std::span<const DetectorRun> detectors, bool with_images, int threads) {
@@ -103,7 +93,7 @@ RunEnd EarlierRun::run(std::span<const DetectorRun> detectors, bool with_images,
     lacks_signatures_ |= recorded.signatures.size() < recorded.corners_px.size();
     lacks_gaps_ |= !recorded.gaps;
     return InputFrame{recording::without_detections(std::move(recorded)),
-                      with_images ? image(k++) : cv::Mat3b{},
+                      with_images ? pictures_.value().image(k++) : cv::Mat3b{},
                       {}};
   };
   const auto work = [&](const InputFrame& seen) {

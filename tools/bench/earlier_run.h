@@ -43,13 +43,10 @@ class EarlierRun {
   RunEnd run(std::span<const DetectorRun> detectors, bool with_images, int threads = 1);
 
  private:
-  cv::Mat3b image(std::size_t position) const;
-
   std::filesystem::path folder_;
   recording::RunInfo info_;
   int frames_ = 0;
   bool lacks_signatures_ = false, lacks_gaps_ = false;
-  Intrinsics camera_;
   std::optional<output::FramePictures> pictures_;
 };
 

@@ -55,20 +55,14 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
 }
 
 ExitCode compare_frames(const CompareOptions& options) {
-  app::CompareRequest plain;
-  plain.before = options.request.before;
-  plain.after = options.request.after;
-  plain.markdown = options.request.markdown;
-  plain.pictures_at = options.request.pictures_at;
-  if (app::arguments_of(options.request) != app::arguments_of(plain)) {
+  if (!options.request.metric.empty() || options.request.allow_missing) {
     throw std::invalid_argument(
-        "--frames compares all frames; only --all and --markdown go with it");
+        "--frames compares all frames; leave out --metric and --allow-missing");
   }
-  const app::ComparedFrames compared = app::compare_frames(plain);
-  constexpr std::size_t kMostCorners = 20;
+  const app::ComparedFrames compared = app::compare_frames(options.request);
   for (const app::RunFrames& run : compared.runs) {
     if (run.difference.first) {
-      print_out("{}", app::first_frame_text(run, options.all ? SIZE_MAX : kMostCorners));
+      print_out("{}", app::first_frame_text(run, options.all ? SIZE_MAX : app::kMostCorners));
     }
   }
   for (const std::string& name : compared.missing) print_out("not compared: {}\n", name);

@@ -302,19 +302,19 @@ void plot(const std::vector<Sighting>& history, cv::Mat3b strip) {
 }
 
 /// The surroundings of the corner with its predictions and neighbours; below, its history.
-/// \param kept picture of the frame. \param scale px of it for each of the camera.
-cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& kept, double scale) {
+/// \param image of the frame.
+cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& image) {
   constexpr int kZoom = 6;
   const Sighting& now = said.history.back();
   const cv::Point middle(kWidth_px / 2, kHeight_px / 2);
   const auto at = [&](const Vec2& x) {
-    const Vec2 off = kZoom * scale * (x - now.place_px());
+    const Vec2 off = kZoom * (x - now.place_px());
     return middle + cv::Point(cvRound(off.x()), cvRound(off.y()));
   };
   cv::Mat3b picture(kHeight_px + kPlot_px, kWidth_px, cv::Vec3b::all(0));
   cv::Mat3b scene = picture.rowRange(0, kHeight_px), part;
-  const Vec2 centre = scale * (now.place_px() + Vec2(0.5, 0.5)) - Vec2(0.5, 0.5);
-  cv::getRectSubPix(kept, scene.size() / kZoom, cv::Point2d(centre.x(), centre.y()), part);
+  const cv::Point2d centre(now.place_px().x(), now.place_px().y());
+  cv::getRectSubPix(image, scene.size() / kZoom, centre, part);
   cv::resize(part, scene, scene.size(), 0, 0, cv::INTER_CUBIC);
   for (const auto& [corner, weight, belief] : now.why.voices) {
     const double sure = std::abs(double{belief});
@@ -338,13 +338,12 @@ cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& kept, double scale)
 void write_picture(const ExplainOptions& options, const Explained& said) {
   const std::filesystem::path file = std::filesystem::path(options.run) / output::kPicturesFile;
   const cv::Size size(said.run.camera->width_px, said.run.camera->height_px);
-  cv::Mat3b kept(size, cv::Vec3b::all(0));
-  double scale = 1;
+  cv::Mat3b image(size, cv::Vec3b::all(0));
   const bool is_there = std::filesystem::exists(file);
-  if (is_there) kept = output::FramePictures(file, size).at(options.frame, scale);
+  if (is_there) image = output::FramePictures(file, size).image(options.frame);
   files::Output picture(options.picture, files::overwrite(options.force));
   files::write_file(picture.staging(),
-                    sequence::encode_png(picture_of(said, kept, scale), sequence::PngFilter::up));
+                    sequence::encode_png(picture_of(said, image), sequence::PngFilter::up));
   picture.commit();
   if (!is_there) tell(options.run + " has no pictures, only marks are drawn: --events keeps some");
 }

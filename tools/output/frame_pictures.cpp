@@ -38,7 +38,10 @@ void PicturesWriter::write(const cv::Mat3b& image) {
 constexpr input::FileKind kMotionJpeg{16 * input::kGibibyte, kRecordAgain};
 
 FramePictures::FramePictures(const std::filesystem::path& file, cv::Size image_px)
-    : path_(file), file_(file, kMotionJpeg), scale_(kept_scale(image_px.width)) {
+    : path_(file),
+      file_(file, kMotionJpeg),
+      image_px_(image_px),
+      scale_(kept_scale(image_px.width)) {
   constexpr std::size_t kBlock = 1 << 16;
   const cv::Size2l expected(cvRound(image_px.width * scale_), cvRound(image_px.height * scale_));
   const auto fail = [&](const std::string& what) {
@@ -80,6 +83,13 @@ cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
     throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
                              " is broken; " + kRecordAgain);
   }
+}
+
+cv::Mat3b FramePictures::image(std::size_t position) const {
+  double scale = 1;
+  cv::Mat3b picture = at(position, scale);
+  if (picture.size() != image_px_) cv::resize(picture, picture, image_px_, 0, 0, cv::INTER_LINEAR);
+  return picture;
 }
 
 }  // namespace lcs::output

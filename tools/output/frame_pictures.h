@@ -40,6 +40,8 @@ class FramePictures {
   /// \param scale set to picture pixels per image pixel.
   /// \throws input::Error; std::runtime_error for a damaged picture.
   cv::Mat3b at(std::size_t position, double& scale) const;
+  /// The same, resized to the run's images.
+  cv::Mat3b image(std::size_t position) const;
   std::size_t size() const { return starts_.size() - 1; }
 
   const std::filesystem::path& path() const { return path_; }
@@ -48,6 +50,7 @@ class FramePictures {
   std::filesystem::path path_;
   input::InputFile file_;
   std::vector<std::uint64_t> starts_{0};  ///< of each picture in the file, then the file's end
+  cv::Size image_px_;
   double scale_;
 };
 

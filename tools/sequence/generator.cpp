@@ -234,11 +234,10 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
         makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
       } catch (const TruthError& error) {
         const auto& coplanar = rig.warnings().of(sim::Warning::coplanar_faces);
-        throw TruthError(fmt::format(
-            "{}{}", error.what(),
-            coplanar.count > 0 ? ", perhaps as " + coplanar.first
-                               : ", which is a fault of this program: please report it with the "
-                                 "scenario"));
+        const std::string fault =
+            ", which is a fault of this program: please report it with the scenario";
+        throw TruthError(error.what() +
+                         (coplanar.count > 0 ? ", perhaps as " + coplanar.first : fault));
       }
     }
     folder.add(now.front().index, output, checks);
