@@ -322,7 +322,7 @@ TEST_F(Outputs, OfOneCommandAreApart) {
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a", "--beside", "klt=a"});
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a", "--beside", "klt=a/klt"});
   expect_refused({"run", "scenarios/mine.yaml", "--out", "a/b", "--beside", "klt=a"});
-  expect_refused({"preview", "scenarios/mine.yaml", "--out", "same.html", "--mjcf", "same.html"});
+  expect_refused({"preview", "scenarios/mine.yaml", "--out", "same.x", "--mjcf", "same.x"});
   expect_refused({"score", "run", "--out", "same.x", "--write-detections", "./same.x"});
 }
 
@@ -334,10 +334,10 @@ TEST_F(Outputs, AreAllOldWhereOneOfThemCannotBe) {
   Arguments again = both;
   again.insert(again.end(), {"--seed", "7"});
   expect_refused(again);
-  const Arguments files{"preview", "scenarios/mine.yaml", "--quiet", "--mjcf", "keep.xml",
-                        "--out",   "notes.html"};
+  const Arguments files{"preview",  "scenarios/mine.yaml", "--quiet", "--mjcf", "keep.xml", "--out",
+                        "notes.txt"};
   write(home_.path() / "keep.xml", "precious");
-  write(home_.path() / "notes.html", "precious");
+  write(home_.path() / "notes.txt", "precious");
   expect_refused(files);
 }
 

@@ -130,17 +130,6 @@ TEST_F(PreviewCommand, ThePageIsWrittenAlsoWhereARunIsRefused) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "asks the network for nothing";
 }
 
-TEST_F(PreviewCommand, OutIsTheFolderOfThePageUnlessItEndsInHtml) {
-  for (const char* out : {"plans", "plans", "mine.d/own.html"}) {  // the second time in its place
-    EXPECT_NE(
-        test::run_lcs({"preview", "mine.yaml", "--quiet", "--out", out}, {.folder = folder_.path()})
-            .exit_code,
-        2);
-  }
-  EXPECT_TRUE(fs::is_regular_file(folder_.path() / "plans" / "mine.html"));
-  EXPECT_TRUE(fs::is_regular_file(folder_.path() / "mine.d" / "own.html"));
-}
-
 TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
   const CommandResult result = test::run_lcs(
       {"preview", "mine.yaml", "--quiet", "--mjcf", "world.xml", "--set", "ego.start=[1 m, 0 m]"},

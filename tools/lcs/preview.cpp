@@ -22,7 +22,7 @@ namespace {
 
 struct PreviewOptions {
   std::string scenario;  ///< scenario file
-  std::string out;       ///< HTML file, or a folder for SCENARIO.html; "": out/preview
+  std::string out;       ///< HTML file; "": out/preview/SCENARIO.html
   std::string mjcf;      ///< file for the world's MJCF; "": none
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
@@ -35,7 +35,6 @@ namespace fs = std::filesystem;
 constexpr const char* kPreviewHelp = R"(Examples:
   lcs preview my_scenario.yaml                          out/preview/my_scenario.html
   lcs preview my_scenario.yaml --set "ego.speed=1 m/s" --out faster.html
-  lcs preview my_scenario.yaml --out plans              plans/my_scenario.html
   lcs preview my_scenario.yaml --mjcf world.xml         for MuJoCo's viewer: simulate world.xml
 
 The page has the plan from above with the ways of the rover and the actors and their times; the first, the
@@ -76,9 +75,8 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
       scenario::load(scenario_file(options.scenario), {.sets = options.sets, .seed = options.seed});
-  fs::path place = app::place_of(options.out, fs::path("out") / "preview");
-  if (place.extension() != ".html") place /= scenario.name + ".html";
-  files::Output page(place, files::overwrite(options.force));
+  const fs::path usual = fs::path("out") / "preview" / (scenario.name + ".html");
+  files::Output page(app::place_of(options.out, usual), files::overwrite(options.force));
   std::vector<files::Output*> outputs{&page};
   std::optional<files::Output> world;
   if (!options.mjcf.empty()) {
@@ -108,8 +106,7 @@ ExitCode preview(const PreviewOptions& options) {
 app::Options options_of(PreviewOptions& options) {
   app::Options all("preview");
   all.add_scenario(options.scenario);
-  all.add("--out", "FILE", &options.out,
-          "The page, NAME.html, or a folder for SCENARIO.html; out/preview if not given",
+  all.add("--out", "FILE", &options.out, "The page; out/preview/SCENARIO.html if not given",
           {.is_output = true});
   all.add_force(options.force);
   all.add("--mjcf", "FILE", &options.mjcf,
