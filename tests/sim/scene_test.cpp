@@ -463,7 +463,7 @@ TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
     EXPECT_TRUE(model) << entry.path() << ": " << message.data();
     EXPECT_STREQ(message.data(), "") << entry.path();
   }
-  EXPECT_EQ(files, 10);
+  EXPECT_EQ(files, 11);
 }
 
 TEST(Scene, ActorsOfOneShapeDoNotClash) {
