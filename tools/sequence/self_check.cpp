@@ -123,7 +123,10 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
 
 Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
                         const TrueFlow& flow) {
+  cv::Mat1b darkest, brightest;
   const cv::Mat1b grey = grey_of(now.rendered), next_grey = grey_of(next.rendered);
+  cv::erode(next_grey, darkest, {});
+  cv::dilate(next_grey, brightest, {});
   const cv::Mat1b now_inner = sim::inner_pixels(now.geom),
                   next_inner = sim::inner_pixels(next.geom);
 
@@ -152,8 +155,8 @@ Agreement check_picture(const sim::Observation& now, const sim::Observation& nex
           for (const cv::Point at : {goal.tl(), goal.tl() + cv::Point(1, 0),
                                      goal.tl() + cv::Point(0, 1), goal.tl() + cv::Point(1, 1)}) {
             is_inside &= next_inner(at) && next.geom(at) == now.geom(y, x);
-            pixel.low = std::min<double>(pixel.low, next_grey(at));
-            pixel.high = std::max<double>(pixel.high, next_grey(at));
+            pixel.low = std::min<double>(pixel.low, darkest(at));
+            pixel.high = std::max<double>(pixel.high, brightest(at));
           }
           if (!is_inside) continue;
           block.push_back(pixel);

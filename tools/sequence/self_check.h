@@ -45,10 +45,10 @@ Agreement check_flow(const sim::Optics& camera, const sim::Observation& now,
                      const cv::Mat1b& seen);
 
 /// Compares the picture with the flow: a pixel must find its grey level again at the goal of its
-/// flow, within the levels of the four pixels round the goal. Compares the pictures before lens and
-/// sensor, at the pixels inside a geom that are seen again and whose goal lies within the same geom.
-/// A change of brightness that a whole block of 16 x 16 pixels shares is light, and is subtracted.
-/// \return shares of the compared pixels of a block that disagree.
+/// flow, within the levels of the four pixels round the goal and their neighbours. Compares the
+/// pictures before lens and sensor, at the pixels inside a geom that are seen again and whose goal
+/// lies within the same geom. A change of brightness that a whole block of 16 x 16 pixels shares is
+/// light, and is subtracted. \return shares of the compared pixels of a block that disagree.
 /// \throws TruthError for a block in which too many do: something is drawn there that depth, masks
 /// and motion do not have.
 Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
