@@ -116,6 +116,20 @@ class Bisect(unittest.TestCase):
         self.assertEqual(code, 0, err)
         self.assertIn("differs: change 5\n", out)
 
+    def test_skips_a_commit_whose_detector_fails_also_when_it_goes_on(self):
+        self.commits(changed_at=5)
+        self.git("checkout", "--quiet", "--detach", "HEAD~3")
+        text = (self.repository / "mine.py").read_text()
+        (self.repository / "mine.py").write_text("raise SystemExit(3)")
+        self.git("commit", "--quiet", "--all", "--message", "breaks it")
+        changed = text.replace("REBELS, NOISE = 0", "REBELS, NOISE = 3")
+        (self.repository / "mine.py").write_text(changed)
+        self.git("commit", "--quiet", "--all", "--message", "mends it, and changes it")
+        for _ in range(2):
+            code, _, err = self.bisect(ends=("HEAD~4", "HEAD"))
+            self.assertEqual(code, 2)  # either of the last two
+            self.assertIn("only 'skip'ped commits left", err)
+
     def test_says_which_commits_it_could_not_tell_apart(self):
         self.commits(changed_at=4, broken=[4])
         code, _, err = self.bisect()
