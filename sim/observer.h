@@ -29,6 +29,7 @@ class Observer {
   const World& world() const { return world_; }
   int next_index() const { return passage_.index(); }  ///< of the next frame
   const FrameState& frame() const { return passage_.frame(); }
+  FrameReadings late_readings() const { return passage_.late_readings(); }
   std::string gl_renderer() const { return renderer_.gl_renderer(); }
 
   /// Renders the next frame, even beyond the scenario's number of frames. \throws PhysicsError

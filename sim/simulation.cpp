@@ -2,9 +2,9 @@
 
 #include <sys/mman.h>
 
+#include "sim/base/trial.h"
 #include "sim/camera/gl_context.h"
 #include "sim/observer.h"
-#include "sim/base/trial.h"
 
 namespace lcs::sim {
 
@@ -44,6 +44,10 @@ const Warnings& Simulation::warnings() const {
 std::optional<Observation> Simulation::next() {
   if (impl_->next_index() >= impl_->scenario().frames) return std::nullopt;
   return impl_->observe();
+}
+
+FrameReadings Simulation::late_readings() const {
+  return impl_->late_readings();
 }
 
 void Simulation::skip() {

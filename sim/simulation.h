@@ -85,6 +85,10 @@ class Simulation {
   /// \throws PhysicsError
   std::optional<Observation> next();
 
+  /// The readings between the last frame that `next` gave and the end of its readout and exposure,
+  /// with one of the IMU beyond it: so that each row has a pose. None with an instant shutter.
+  FrameReadings late_readings() const;
+
   /// Skips the next frame without rendering, in a hundredth of the time; later frames are the same
   /// as without the skip. Event pixels and `image.auto_exposure` remember its picture, so that with
   /// them it is rendered. \throws PhysicsError

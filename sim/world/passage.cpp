@@ -85,4 +85,19 @@ void Passage::advance(FrameReadings& frame) {
   take_until(until_ns, readings_.imu_truth, frame.imu_truth);
 }
 
+FrameReadings Passage::late_readings() const {
+  FrameReadings late;
+  if (shutter_.is_instant() || index_ == 0) return late;
+  const std::int64_t end_ns = event_time_ns(index_ - 1, rate_hz_) + shutter_.instants_ns().back();
+  late = readings_;
+  const auto& states = readings_.imu_truth;
+  const auto last = std::ranges::find_if(states, [&](const auto& s) { return s.t_ns >= end_ns; });
+  if (last == states.end()) return late;
+  const auto is_later = [&](const auto& reading) { return reading.t_ns > last->t_ns; };
+  std::erase_if(late.imu, is_later);
+  std::erase_if(late.odometry, is_later);
+  std::erase_if(late.imu_truth, is_later);
+  return late;
+}
+
 }  // namespace lcs::sim

@@ -58,6 +58,10 @@ class Passage {
   /// time and readings of the frame that was the next one. \throws PhysicsError
   void advance(FrameReadings& frame);
 
+  /// The readings after those of the frame before the next one, up to the first of the IMU at or
+  /// after the end of that frame's shutter; none with an instant shutter.
+  FrameReadings late_readings() const;
+
  private:
   void pass_frame();
   void advance_to(std::int64_t t_ns);

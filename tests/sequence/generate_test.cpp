@@ -9,14 +9,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <set>
+#include <span>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "scenarios/input/sha256.h"
 #include "scenarios/load.h"
@@ -376,6 +379,68 @@ TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
                                        "scenario.yaml"})
                     .contains(file))
         << file;
+  }
+}
+
+/// The rover turns through a heading of 180 degrees, at which w is 0.
+TEST_F(Generate, QuaternionsKeepTheirSignFromRowToRow) {
+  const CommandResult made = generate({"--formats", "euroc,tum", "--set", "ego.heading=179 deg",
+                                       "--set", "ego.yaw_rate=20 deg/s", "--out", "sequence"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const fs::path folder = home_.path() / "sequence";
+  const auto quaternions = [](const std::vector<std::vector<std::string>>& rows) {
+    std::vector<Eigen::Vector4d> all;
+    for (const auto& row : rows) {
+      Eigen::Vector4d& q = all.emplace_back();
+      for (int i = 0; i < 4; ++i) q[i] = std::stod(row.at(static_cast<std::size_t>(4 + i)));
+    }
+    return all;
+  };
+  std::vector<std::vector<std::string>> tum;
+  std::ifstream file(folder / "tum/imu.txt");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    tum.emplace_back(std::istream_iterator<std::string>(words),
+                     std::istream_iterator<std::string>());
+  }
+  const auto euroc = quaternions(rows_of(folder / "mav0/state_groundtruth_estimate0/data.csv"));
+  const auto of_tum = quaternions(tum);
+  ASSERT_EQ(euroc.size(), of_tum.size());
+  ASSERT_GT(euroc.size(), 20u);
+  bool is_negative = false;
+  for (std::size_t i = 0; i < euroc.size(); ++i) {
+    EXPECT_NEAR(euroc[i].norm(), 1, 1e-12);
+    const Eigen::Vector4d xyzw(euroc[i][1], euroc[i][2], euroc[i][3], euroc[i][0]);
+    EXPECT_EQ(of_tum[i], xyzw);
+    is_negative |= euroc[i][0] < 0;
+    if (i > 0) {
+      EXPECT_GT(euroc[i].dot(euroc[i - 1]), 0.99) << "row " << i;
+    }
+  }
+  EXPECT_TRUE(is_negative) << "without the rule w >= 0 would hold, by a jump";
+}
+
+/// The rows of a rolling shutter are later than the stamp of their picture.
+TEST_F(Generate, SensorsAndTruthReachBeyondTheLastRow) {
+  const auto rows_by = [&](const std::string& out, const std::string& frames) {
+    const CommandResult made = generate({"--formats", "euroc", "--frames", frames, "--set",
+                                         "camera.rolling_shutter=30 ms", "--out", out});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const fs::path mav0 = home_.path() / out / "mav0";
+    return std::tuple(rows_of(mav0 / "cam0/data.csv"), rows_of(mav0 / "imu0/data.csv"),
+                      rows_of(mav0 / "state_groundtruth_estimate0/data.csv"));
+  };
+  const auto [pictures, imu, truth] = rows_by("short", "2");
+  const auto [more_pictures, more_imu, more_truth] = rows_by("long", "3");
+  const auto stamp_ns = [](const std::vector<std::string>& row) { return std::stoll(row.front()); };
+  const std::int64_t last_row_ns = stamp_ns(pictures.back()) + 30'000'000;
+  const std::int64_t step_ns = stamp_ns(imu[1]) - stamp_ns(imu[0]);
+  for (const auto& [rows, more] : {std::tie(imu, more_imu), std::tie(truth, more_truth)}) {
+    EXPECT_GE(stamp_ns(rows.back()), last_row_ns);
+    EXPECT_LT(stamp_ns(rows.back()), last_row_ns + step_ns);
+    ASSERT_GT(more.size(), rows.size());
+    EXPECT_TRUE(std::ranges::equal(rows, std::span(more).first(rows.size())))
+        << "the readings are those of a longer sequence";
   }
 }
 

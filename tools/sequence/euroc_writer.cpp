@@ -85,9 +85,12 @@ std::vector<SequenceDocument> euroc_documents(const SequenceInfo& info) {
   std::vector<SequenceDocument> all{csv(camera + "/pose.csv", kPoseHeader, "camera_pose"),
                                     {camera + "/sensor.yaml", {{.text = camera_yaml(info)}}}};
   if (!info.is_first()) return all;
+  SequenceDocument truth =
+      csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth");
+  truth.parts.back().poses_between = ',';
   all.insert(all.end(),
              {csv("mav0/imu0/data.csv", kImuHeader, "imu"),
-              csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
+              truth,
               {"mav0/imu0/sensor.yaml", {{.text = imu_yaml(info)}}},
               {"mav0/state_groundtruth_estimate0/sensor.yaml",
                {{.text = sensor_yaml("visual-inertial",

@@ -37,7 +37,7 @@ Writer rpg_writer(const SequenceInfo& info) {
   std::vector<SequenceDocument> documents{
       {"rpg/calib.txt", {{.text = numbers(calibration, " ") + "\n"}}},
       {"rpg/images.txt", {{.stream = "rpg_images"}}},
-      {"rpg/groundtruth.txt", {{.stream = "rpg_truth"}}},
+      {"rpg/groundtruth.txt", {{.stream = "rpg_truth", .poses_between = ' '}}},
       {"rpg/events.txt", {{.stream = "rpg_events"}}}};
   if (info.is_first()) documents.push_back({"rpg/imu.txt", {{.stream = "rpg_imu"}}});
   const auto write = [info](const FrameView& frame, FrameOutput& output) {

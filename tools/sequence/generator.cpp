@@ -1,6 +1,7 @@
 #include "tools/sequence/generator.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <deque>
@@ -13,6 +14,7 @@
 #include "scenarios/input/document.h"
 #include "scenarios/input/sha256.h"
 #include "sim/simulation.h"
+#include "tools/files/csv.h"
 #include "tools/files/output_file.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
@@ -65,6 +67,10 @@ class Rig {
     for (const auto& simulation : simulations_) all.push_back(simulation->next().value());
     return all;
   }
+  /// After the last frame: of the camera at a place.
+  sim::FrameReadings late_readings(std::size_t place) const {
+    return simulations_[place]->late_readings();
+  }
 
  private:
   std::size_t filter_place_;
@@ -88,8 +94,9 @@ class FrameMaker {
       : info_(info), writers_(writers_of(info, options)) {}
 
   /// \param next null for the scenario's last frame, whose flow and goals are not checked.
-  void make(const sim::Observation& now, const sim::Observation* next, FrameOutput& all,
-            Agreements& checks) const {
+  /// \param late readings after the last frame, which are written with it.
+  void make(sim::Observation now, const sim::Observation* next, const sim::FrameReadings& late,
+            FrameOutput& all, Agreements& checks) const {
     check_times(info_.scenario, now);
     checks["imu_share_of_tolerance"].add(
         check_imu(info_.scenario.imu, info_.calibration.gravity_mps2, now));
@@ -104,6 +111,9 @@ class FrameMaker {
     const cv::Mat1w mask = object_mask(now.truth);
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
     checks["outline_contrast_ratio"].add(check_outlines(now, mask));
+    std::ranges::copy(late.imu, std::back_inserter(now.imu));
+    std::ranges::copy(late.odometry, std::back_inserter(now.odometry));
+    std::ranges::copy(late.imu_truth, std::back_inserter(now.imu_truth));
     FrameOutput output;
     for (const Writer& writer : writers_) {
       writer.write({now, info_.stamp_ns(now.t_ns), mask, motion ? &*motion : nullptr}, output);
@@ -120,13 +130,33 @@ class FrameMaker {
   std::vector<Writer> writers_;
 };
 
+/// Rows of poses. Of q and -q, which are the same rotation, each gets the one nearer to the row
+/// before.
+std::string with_steady_signs(const std::string& rows, DocumentPart& part) {
+  std::string text;
+  for (const std::string_view line : files::split(rows, '\n')) {
+    if (line.empty()) continue;  // after the last row
+    const std::vector<std::string_view> fields = files::split(line, part.poses_between);
+    std::vector<std::string> written(fields.begin(), fields.end());
+    Eigen::Vector4d q;
+    for (std::size_t i = 0; i < 4; ++i) q[i] = files::number_in<double>(fields[4 + i]).value();
+    if (q.dot(part.last_quaternion) < 0) {
+      q = Eigen::Vector4d::Zero() - q;  // no -0
+      for (std::size_t i = 0; i < 4; ++i) written[4 + i] = fmt::format("{}", q[i]);
+    }
+    part.last_quaternion = q;
+    text += fmt::format("{}\n", fmt::join(written, std::string_view(&part.poses_between, 1)));
+  }
+  return text;
+}
+
 /// Adds the rows of the next frame.
 void add(const Rows& rows, SequenceDocument& document) {
   for (DocumentPart& part : document.parts) {
     const auto found = rows.find(part.stream);
     if (found == rows.end() || found->second.empty()) continue;
     if (!part.text.empty()) part.text += part.separator;
-    part.text += found->second;
+    part.text += part.poses_between ? with_steady_signs(found->second, part) : found->second;
   }
 }
 
@@ -231,7 +261,8 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
     Agreements checks;
     for (std::size_t i = 0; i < makers.size(); ++i) {
       try {
-        makers[i].make(now[i], next.empty() ? nullptr : &next[i], output, checks);
+        makers[i].make(now[i], next.empty() ? nullptr : &next[i],
+                       next.empty() ? rig.late_readings(i) : sim::FrameReadings(), output, checks);
       } catch (const TruthError& error) {
         const auto& coplanar = rig.warnings().of(sim::Warning::coplanar_faces);
         const std::string fault =

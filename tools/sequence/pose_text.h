@@ -30,7 +30,8 @@ std::vector<double> four_coefficients(const sim::Lens& lens);
 /// TUM's line, `t x y z qx qy qz qw`, with its end.
 std::string pose_line(std::int64_t t_ns, const sim::Pose& pose);
 
-/// The unit quaternion of a pose's rotation, with w >= 0 so that it is unique.
+/// The unit quaternion of a pose's rotation, with w >= 0. The documents of a sequence keep the sign
+/// from row to row (`DocumentPart::poses_between`).
 Eigen::Quaterniond quaternion_of(const sim::Pose& pose);
 
 /// The 4x4 matrix row by row, with the last row 0 0 0 1.

@@ -114,8 +114,10 @@ void require_rectified(const SequenceInfo& info) {
 
 /// Trajectories in the format of TUM's RGB-D benchmark: t x y z qx qy qz qw.
 Writer tum_writer(const SequenceInfo& info) {
-  std::vector<SequenceDocument> documents{{"tum/camera.txt", {{.stream = "tum_camera"}}}};
-  if (info.is_first()) documents.push_back({"tum/imu.txt", {{.stream = "tum_imu"}}});
+  std::vector<SequenceDocument> documents{
+      {"tum/camera.txt", {{.stream = "tum_camera", .poses_between = ' '}}}};
+  if (info.is_first())
+    documents.push_back({"tum/imu.txt", {{.stream = "tum_imu", .poses_between = ' '}}});
   const auto write = [info](const FrameView& frame, FrameOutput& output) {
     output.rows["tum_camera"] = pose_line(frame.stamp_ns, frame.now.truth.now.T_WC);
     if (!info.is_first()) return;

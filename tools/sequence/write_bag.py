@@ -52,6 +52,7 @@ class Bag:
             self.store.register(get_types_from_msg(fields, f"vision_msgs/msg/{name}"))
         self._writer = writer
         self._topics: dict[str, Any] = {}
+        self._turns: dict[tuple[str, str], list[float]] = {}
 
     def make(self, kind: str, *fields: object) -> Any:
         return self.store.types[kind.replace("/", "/msg/")](*fields)
@@ -74,8 +75,16 @@ class Bag:
     def vector(self, xyz: list[float]) -> Any:
         return self.make("geometry_msgs/Vector3", *map(float, xyz))
 
+    def rotation(self, frame: str, child: str, q: list[float]) -> Any:
+        """Of q and -q, which are the same rotation, the one nearer to the last of these frames."""
+        last = self._turns.get((frame, child), q)
+        if np.dot(q, last) < 0:
+            q = [0.0 - x for x in q]  # no -0
+        self._turns[frame, child] = q
+        return self.make("geometry_msgs/Quaternion", *q)
+
     def transform(self, t_ns: int, parent: str, child: str, T: list[float]) -> Any:
-        rotation = self.make("geometry_msgs/Quaternion", *T[3:])
+        rotation = self.rotation(parent, child, T[3:])
         placed = self.make("geometry_msgs/Transform", self.vector(T[:3]), rotation)
         return self.make("geometry_msgs/TransformStamped", self.header(t_ns, parent), child, placed)
 
@@ -84,7 +93,7 @@ class Bag:
         """Velocities are in the child frame. Without T_AB the pose is unknown."""
         x, y, z, *q = T or [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
         pose = self.make("geometry_msgs/Pose", self.make("geometry_msgs/Point", x, y, z),
-                         self.make("geometry_msgs/Quaternion", *q))  # fmt: skip
+                         self.rotation(frame, child, q))  # fmt: skip
         of_pose = np.zeros(36)
         of_pose[0] = 0.0 if T else UNKNOWN
         twist = self.make("geometry_msgs/Twist", self.vector(linear), self.vector(angular))

@@ -44,6 +44,9 @@ struct DocumentPart {
   std::string text = {};       ///< fixed, or the rows so far
   std::string stream = {};     ///< "" for fixed text
   std::string separator = {};  ///< between the rows of two frames, if neither is empty
+  /// Of rows that begin with t x y z and a quaternion: the character between fields; 0: others.
+  char poses_between = 0;
+  Eigen::Vector4d last_quaternion = Eigen::Vector4d::Zero();  ///< as written; 0 before the first
 };
 
 /// A file of the whole sequence.
