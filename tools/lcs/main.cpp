@@ -21,25 +21,6 @@ namespace {
 
 using namespace lcs::tools;
 
-constexpr const char* kHelp =
-    R"(A rover drives through a simulated world, the Line-Circle-Square filter watches
-through its camera and IMU, and the simulator's truth scores the filter.
-
-  lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
-  lcs preview SCENARIO                check one before a run: its plan, its problems
-  lcs suite                           run all short scenarios, with several seeds each
-  lcs merge part1 part2               join the parts of a suite that several machines made
-  lcs compare out/before out/suite    the differences of two suites, beyond noise
-  lcs generate SCENARIO               a sequence of pictures and truth that other tools read
-  lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
-  lcs score DIR --detections FILE     someone else's detector, by a run's truth
-  lcs explain RUN FRAME X Y           why the filter called a corner a rebel, or did not
-  lcs world FAMILY                    a scenario and its scene, drawn from a seed
-  lcs tune out/train                  the filter's numbers, learnt from recorded worlds
-  lcs kinematics                      when the motion model holds, for your camera and rover
-  lcs run --help                      all about a command
-)";
-
 constexpr const char* kNoMemory =
     "not enough memory; raise ulimit -v where it is set, or choose a smaller camera or scene";
 
@@ -56,7 +37,7 @@ int main(int argc, char** argv) {
         run_command_line({run_command(), preview_command(), replay_command(), score_command(),
                           suite_command(), merge_command(), generate_command(), compare_command(),
                           explain_command(), kinematics_command(), world_command(), tune_command()},
-                         kHelp, argc, argv);
+                         kProgramHelp, argc, argv);
     finish_out();
     return exit_code;
   } catch (const Interrupted& interrupted) {

@@ -32,27 +32,6 @@ struct PreviewOptions {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPreviewHelp = R"(Examples:
-  lcs preview my_scenario.yaml                          out/preview/my_scenario.html
-  lcs preview my_scenario.yaml --set "ego.speed=1 m/s" --out faster.html
-  lcs preview my_scenario.yaml --mjcf world.xml         for MuJoCo's viewer: simulate world.xml
-
-The page has the plan from above with the ways of the rover and the actors and their times; the first, the
-middle and the last picture with their corners; and the problems: actors that start inside of something, run
-into something, are never visible or never move, a camera inside of something, too few corners. The physics
-run, the filter does not: a second or two, three for a drive of a minute. Visibility and corners are judged
-by 13 pictures, evenly spread, of four million pixels at most.
-
---mjcf writes the world at its start. A file called .mjb, MuJoCo's binary, is complete. In MJCF, surfaces
-that this project draws have one colour, and the ground has no bumps.
-
-Exit codes:
-  0  nothing is wrong
-  1  there are problems: they are on stderr and on the page
-  2  error: nothing was written
-  130  interrupted (Ctrl-C): likewise
-)";
-
 void print_preview(const scenario::Scenario& scenario, const preview::Preview& p,
                    const fs::path& page) {
   std::string text =

@@ -13,32 +13,13 @@
 #include "tools/scoring/events.h"
 
 namespace lcs::preview {
+
+extern const std::string_view kPreviewCss;  // preview.css
+
 namespace {
 
 using Eigen::Vector2d;
 using report::Html;
-
-constexpr const char* kStyle = R"(
-svg { display: block; width: 100%; height: auto; background: var(--panel); border-radius: 6px; }
-svg text { font-size: 12px; fill: var(--text); stroke: var(--panel); stroke-width: 3px; paint-order: stroke; }
-.plan svg { max-height: 80vh; }
-.plan polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
-.grid { stroke: var(--line); stroke-width: 0.5; }
-.setting { fill: var(--line); fill-opacity: 0.5; stroke: var(--quiet); stroke-width: 0.5; }
-.thing { fill: var(--mark); stroke: var(--quiet); }
-.view { fill: var(--s1); fill-opacity: 0.12; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(360px, 100%), 1fr)); gap: 0.8rem; }
-.pictures text { fill: #fff; stroke: #000; }
-.pictures .corners { stroke: #ffe600; stroke-linecap: round; fill: none; }
-.pictures rect { fill: none; }
-.c0 { stroke: var(--s1); } .c1 { stroke: var(--s2); } .c2 { stroke: var(--s3); } .c3 { stroke: var(--s4); } .c4 { stroke: var(--s5); }
-i.c0, i.c1, i.c2, i.c3, i.c4 { display: inline-block; width: 1.4em; border-top: 3px solid; vertical-align: 0.25em; margin-right: 0.4em; }
-i.c0 { border-color: var(--s1); } i.c1 { border-color: var(--s2); } i.c2 { border-color: var(--s3); } i.c3 { border-color: var(--s4); } i.c4 { border-color: var(--s5); }
-.wrong, .fine { margin: 0.8rem 0; }
-.wrong { border-left: 4px solid var(--bad); background: var(--bad-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
-.fine { border-left: 4px solid var(--good); background: var(--good-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
-.wrong li { margin: 0.2rem 0; }
-)";
 
 /// Index of a mover's colour; the rover has its own.
 int colour_of(std::size_t mover) {
@@ -57,7 +38,7 @@ double round_number(double least) {
 class PreviewPage : public report::TextPage {
  public:
   PreviewPage(const scenario::Scenario& scenario, const Preview& preview)
-      : TextPage(scenario.name + ": preview", kStyle),
+      : TextPage(scenario.name + ": preview", kPreviewCss),
         scenario_(scenario),
         preview_(preview),
         survey_(preview.survey) {

@@ -15,26 +15,14 @@
 #include "tools/suite/summary.h"
 
 namespace lcs::report {
+
+extern const std::string_view kWorldsCss;  // worlds.css
+
 namespace {
 
 namespace fs = std::filesystem;
 using suite::ScenarioResult;
 using suite::SuiteResult;
-
-constexpr const char* kStyle = R"(
-article { border-top: 1px solid var(--line); padding: 0.6rem 0 1rem; }
-article h3 { margin: 0 0 0.3rem; display: flex; flex-wrap: wrap; gap: 0.1rem 0.9rem; align-items: baseline; }
-article h3 span { font-weight: 400; font-size: 0.85rem; color: var(--quiet); }
-article img { width: 100%; height: auto; display: block; background: #fff; border-radius: 4px; }
-article .beside { display: flex; flex-wrap: wrap; gap: 0.4rem 2.4rem; margin-top: 0.4rem; }
-article .words { flex: 1 1 22rem; font-size: 0.85rem; }
-article .words p { margin: 0.15rem 0; }
-article table { font-size: 0.85rem; }
-article td, article th { padding: 0.1rem 0.5rem; }
-.feature { display: inline-block; padding: 0 0.5em; margin: 0 0.2em 0.2em 0; border-radius: 0.7em; background: var(--mark); white-space: nowrap; }
-.moves { color: #d000d0; } .stands { color: #0a8f0a; } .rover { color: #0050dc; }
-nav a { margin-right: 0.9em; }
-)";
 
 constexpr std::string_view kCorners = "dimension.corners_mean", kFrames = "frames";
 
@@ -67,7 +55,7 @@ class WorldsPage : public TextPage {
  public:
   WorldsPage(const fs::path& folder, const std::string& about, const SuiteResult& suite,
              std::span<const SuiteResult> others)
-      : TextPage("lcs: worlds", kStyle), folder_(folder), suite_(suite), detectors_{&suite} {
+      : TextPage("lcs: worlds", kWorldsCss), folder_(folder), suite_(suite), detectors_{&suite} {
     for (const SuiteResult& other : others) detectors_.push_back(&other);
     for (const ScenarioResult& scenario : suite.scenarios) {
       const std::string family = family_of(scenario);
