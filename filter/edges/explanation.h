@@ -33,6 +33,21 @@ struct Explanation {
   Eigen::Matrix2d static_spread_px2 = Eigen::Matrix2d::Zero();
   float shown = 0;            ///< L_C, (34); 0 for a corner seen once
   std::vector<Voice> voices;  ///< heaviest first; none for a corner seen once
+
+  Vec2 place_px() const { return {seen[kPlaceX], seen[kPlaceY]}; }
+  /// A prediction of the place. \param x its first column.
+  Vec2 predicted_px(TrackColumn x) const { return {predicted[x], predicted[x + 1]}; }
+  /// The distance of the place from a prediction; NaN without the prediction.
+  double miss_px(TrackColumn x) const;
 };
+
+struct ExplainedNumber {
+  const char* equation;        ///< of MODEL.md, such as "(12)"
+  const char* name;            ///< with its unit, such as "p_S, 1/px^2"
+  std::vector<double> values;  ///< two are x and y
+};
+
+/// All numbers of the corner's own that are defined, in the order of the filter's steps.
+std::vector<ExplainedNumber> numbers_of(const Explanation& why);
 
 }  // namespace lcs

@@ -407,6 +407,26 @@ class Filters(unittest.TestCase):
         self.assertEqual(lcs.Reason(result.reasons[0]), lcs.Reason.NOT_FINITE)
         self.assertTrue(any("corner_not_finite" in line for line in lcs_filter.diagnostics))
 
+    def test_explains_its_verdicts_by_the_numbers_that_made_them(self):
+        scenario = small(frames=6)
+        own = lcs.Filter(scenario)
+        for frame in lcs.simulate(scenario):
+            result = own.step(frame.corners, frame.motion, frame.signatures)
+        told = 0
+        for i, odds in enumerate(result.log_odds):
+            why = own.explain(i)
+            if why is None:
+                continue
+            self.assertAlmostEqual(why["numbers"]["m"], odds, delta=1e-6)
+            if "sum of k" in why["numbers"]:
+                told += 1
+                weights = sum(k for _, k, _ in why["neighbours"])
+                self.assertAlmostEqual(why["numbers"]["sum of k"], weights, delta=1e-4)
+        self.assertGreater(told, 20)
+        self.assertIsNone(own.explain(len(result.log_odds)))
+        with self.assertRaises(ValueError):
+            lcs.Filter(scenario.camera, "lab").explain(0)
+
     def test_settings_are_checked(self):
         for settings in ({"circle.gap0": 3}, {"circle.gap": "wide"}, {"circle.gap": -1}):
             with self.assertRaisesRegex(lcs.Error, "circle.gap"):

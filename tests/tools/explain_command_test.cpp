@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -114,6 +117,58 @@ TEST_F(ExplainCommand, ExplainsEveryCornerOfAFrame) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find(fmt::format("({:.2f}, {:.2f})", x.x(), x.y())), std::string::npos);
   }
+}
+
+TEST_F(ExplainCommand, GivesTheNumbersOfAllCornersAsJson) {
+  const recording::FrameRecord seen = frame();
+  const CommandResult result = lcs({"explain", "run", std::to_string(kFrame), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::size_t i = 0, tracked = 0;
+  for (std::string line; std::getline(lines, line); ++i) {
+    const auto corner = nlohmann::json::parse(line);
+    ASSERT_LT(i, seen.corners_px.size());
+    EXPECT_EQ(corner.at("corner"), i);
+    EXPECT_EQ(corner.at("place_px").at(0), seen.corners_px[i].x());
+    EXPECT_EQ(corner.at("verdict") == "rebel", seen.verdicts[i] == Verdict::rebel);
+    if (!corner.contains("track")) continue;
+    ++tracked;
+    const auto& numbers = corner.at("numbers");
+    EXPECT_NEAR(numbers.at("m"), seen.log_odds[i], 0.0051) << "stored in steps of .01";
+    EXPECT_EQ(corner.at("history").back().at("frame"), kFrame);
+    if (!numbers.contains("sum of k")) continue;
+    double k = 0;
+    for (const auto& voice : corner.at("neighbours")) k += voice.at("k").get<double>();
+    EXPECT_NEAR(numbers.at("sum of k"), k, 1e-4);
+  }
+  EXPECT_EQ(i, seen.corners_px.size());
+  EXPECT_GT(tracked, i / 2);
+  const CommandResult one =
+      lcs({"explain", "run", std::to_string(kFrame), "--track", track(), "--json"});
+  EXPECT_NE(result.out.find(one.out), std::string::npos) << one.out << one.err;
+}
+
+/// A corner whose point went elsewhere has a wrong match by truth, and a told motion that is wrong
+/// by a pixel is named, too.
+TEST_F(ExplainCommand, NamesWrongMatchesAndToldMotionsByTruth) {
+  ASSERT_EQ(lcs({"run", fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml", "--set", "frames=5", "--set",
+                 "camera.told.pitch_error=3 deg", "--no-video", "--quiet", "--out", "told"})
+                .exit_code,
+            0);
+  const auto kinds = [](const CommandResult& result) {
+    std::map<std::string, int> counts;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::string kind = nlohmann::json::parse(line).at("kind");
+      ++counts[kind.substr(0, kind.find(':'))];
+    }
+    return counts;
+  };
+  const auto right = kinds(lcs({"explain", "run", "4", "--json"}));
+  const auto told = kinds(lcs({"explain", "told", "4", "--json"}));
+  EXPECT_FALSE(right.contains("told motion"));
+  EXPECT_TRUE(told.contains("told motion"));
+  EXPECT_GT(right.at("tracked"), 100);
 }
 
 TEST_F(ExplainCommand, DrawsAPictureAndSaysIfTheRunKeptNone) {

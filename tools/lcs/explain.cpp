@@ -34,39 +34,23 @@ struct ExplainOptions {
   std::uint64_t frame = 0;
   std::optional<double> x_px, y_px;  ///< near the corner
   std::optional<Id> track;           ///< in place of x and y
-  std::string picture;               ///< PNG file; "": none
+  bool json = false;
+  std::string picture;  ///< PNG file; "": none
   bool force = false;
 };
-
-constexpr const char* kExplainHelp = R"(Examples:
-  lcs explain out/crossing 12 506 240                      the corner within 3 px of (506, 240) in frame 12
-  lcs explain out/crossing 12 --track 345                  the corner on this track
-  lcs explain out/crossing 12 506 240 --picture why.png    also as a picture
-
-The filter goes over the frames of the run again, and has to come to the stored verdicts. Each number stands
-behind its equation of filter/MODEL.md; the last lines are the sightings of the track. In the picture the line
-to a neighbour is as wide as its weight, red if it said that it moves, blue if it stands.
-)";
 
 /// A corner of a track in a frame.
 struct Sighting {
   int frame;
   std::size_t corner;  ///< index in the frame
   Verdict verdict;
-  int object;
+  sim::CornerTruth truth;
   Explanation why;
-
-  Vec2 predicted_px(TrackColumn x) const { return {why.predicted[x], why.predicted[x + 1]}; }
-  Vec2 place_px() const { return {why.seen[kPlaceX], why.seen[kPlaceY]}; }
-  /// NaN without the prediction.
-  double miss_px(TrackColumn x) const {
-    const bool is_there = why.predicted[kSightings] >= (x == kMovingX ? 2 : 1);
-    return is_there ? (place_px() - predicted_px(x)).norm() : std::nan("");
-  }
 };
 
 struct Explained {
   recording::RunInfo run;
+  FieldParameters field;
   recording::FrameRecord frame;                  ///< that is asked for
   std::vector<scoring::CornerOutcome> outcomes;  ///< of its corners
   std::size_t corner = 0;                        ///< that is asked for
@@ -75,6 +59,16 @@ struct Explained {
   std::vector<Sighting> history;
 
   Vec2 place_px(std::size_t i) const { return frame.corners_px[i].cast<double>(); }
+  /// Sets the corner that is asked for. \return whether it has a track.
+  bool ask_for(std::size_t i) {
+    corner = i;
+    history.clear();
+    for (const auto& [track, sightings] : tracks) {
+      const Sighting& last = sightings.back();
+      if (last.frame == frame.index && last.corner == i) history = sightings;
+    }
+    return !history.empty();
+  }
   std::string on(int object) const {
     const auto named = std::ranges::find(run.objects, object, &sim::Object::id);
     return named == run.objects.end() ? "" : " on " + named->name;
@@ -109,9 +103,11 @@ void step(const recording::FrameRecord& frame, const std::string& run,
                   run, frame.index));
 }
 
+/// The radius of FAST's circle.
+constexpr double kNear_px = 3;
+
 /// The index of the corner nearest to a place. \throws std::runtime_error if none is near.
 std::size_t corner_at(const Vec2& place_px, const recording::FrameRecord& frame) {
-  constexpr double kNear_px = 3;
   const auto off_px = [&](const Eigen::Vector2f& x) {
     return (x.cast<double>() - place_px).norm();
   };
@@ -140,6 +136,7 @@ Explained explained(const ExplainOptions& options) {
                              " is no run of the default filter with its camera, which alone can be "
                              "explained; run the scenario with --detector lcs:default");
   }
+  said.field = plain->field;
   bench::LcsDetector detector(*said.run.camera, parameters);
   const Filter& filter = *detector.filter().plain();
   scoring::RebelScorer scorer;
@@ -156,23 +153,20 @@ Explained explained(const ExplainOptions& options) {
       const std::optional<Explanation> why = filter.explain(static_cast<int>(i));
       if (!why) continue;
       said.tracks[why->track].push_back(
-          {frame.index, i, frame.verdicts[i], frame.corner_truth[i].object, *why});
+          {frame.index, i, frame.verdicts[i], frame.corner_truth[i], *why});
     }
     std::erase_if(said.tracks, [&](const auto& track) {
       return track.second.back().frame + plain->edge.coast < frame.index;  // it has ended
     });
   }
-  if (!options.track) said.corner = corner_at({*options.x_px, *options.y_px}, frame);
-  for (const auto& [track, sightings] : said.tracks) {
-    if (sightings.back().frame != frame.index) continue;
-    const bool is_there = sightings.back().place_px() == said.place_px(said.corner);
-    if (options.track ? track != *options.track : !is_there) continue;
-    said.corner = sightings.back().corner;
-    said.history = sightings;
-  }
-  if (options.track && said.history.empty()) {
-    throw std::runtime_error(
-        fmt::format("no corner of the frame is on track {}; give X and Y", *options.track));
+  if (options.x_px) said.ask_for(corner_at({*options.x_px, *options.y_px}, frame));
+  if (options.track) {
+    const auto found = said.tracks.find(*options.track);
+    if (found == said.tracks.end() || found->second.back().frame != frame.index) {
+      throw std::runtime_error(
+          fmt::format("no corner of the frame is on track {}; give X and Y", *options.track));
+    }
+    said.ask_for(found->second.back().corner);
   }
   return said;
 }
@@ -192,11 +186,34 @@ std::string text_of(const Vec2& x) {
   return fmt::format("({:.2f}, {:.2f})", x.x(), x.y());
 }
 
+constexpr std::array kOutcomes{"not counted", "right",  "false",        "right",
+                               "right",       "missed", "missed, early"};
+
+/// What makes the corner hard, by its truth and by that of its last sighting.
+std::string kind_of(const Explained& said) {
+  constexpr std::array kKinds{"at the outline of a mover", "radial", "seen first", "tracked"};
+  const scoring::Difficulty kind = scoring::difficulty(said.frame, said.corner);
+  const std::size_t sightings = said.history.size();
+  if (kind != scoring::Difficulty::tracked || sightings < 2) return word(kKinds, kind);
+  const Sighting &now = said.history[sightings - 1], &was = said.history[sightings - 2];
+  if (was.frame + 1 != now.frame || was.truth.label == sim::Label::none) return word(kKinds, kind);
+  const double off_px = (was.why.place_px() + was.truth.motion_px - now.why.place_px()).norm();
+  if (off_px > kNear_px) {
+    return fmt::format("a wrong match: the point that it followed is {:.1f} px away", off_px);
+  }
+  const auto static_px = [&](const EgoMotion& motion) {
+    const MotionField field(*said.run.camera, motion, said.field);
+    const double ratio = field.reference_depth_m() / was.truth.depth_m;
+    return field.translated(field.rotated(was.why.place_px()), field.advanced_ratio(ratio));
+  };
+  const double told_px = (static_px(said.frame.motion) - static_px(said.frame.true_motion)).norm();
+  constexpr double kDistinct_px = 1;  // from which on the truth calls a motion a rebel's
+  if (told_px < kDistinct_px) return word(kKinds, kind);
+  return fmt::format("told motion: it is off by {:.1f} px here", told_px);
+}
+
 /// Verdict and truth.
 std::string heading(const Explained& said) {
-  constexpr std::array kOutcomes{"not counted", "right",  "false",        "right",
-                                 "right",       "missed", "missed, early"};
-  constexpr std::array kKinds{"at the outline of a mover", "radial", "seen first", "tracked"};
   const std::size_t i = said.corner;
   const sim::CornerTruth& truth = said.frame.corner_truth[i];
   const ReasonText& reason = text_of(said.frame.reasons[i]);
@@ -207,73 +224,106 @@ std::string heading(const Explained& said) {
       said.run.scenario, said.frame.index, static_cast<double>(said.frame.t_ns) * 1e-9,
       text_of(said.place_px(i)), word(recording::kVerdicts, said.frame.verdicts[i]), reason.word,
       reason.meaning, word(recording::kLabels, truth.label), said.on(truth.object),
-      word(kOutcomes, said.outcomes[i]), word(kKinds, scoring::difficulty(said.frame, i)));
+      word(kOutcomes, said.outcomes[i]), kind_of(said));
+}
+
+/// The places of corners that are seen once, and have the m of this one (19).
+std::vector<Vec2> told_px(const Explained& said) {
+  const Sighting& now = said.history.back();
+  std::vector<Vec2> places;
+  for (const auto& [track, sightings] : said.tracks) {
+    const Sighting& other = sightings.back();
+    const auto& [seen, is] = std::tie(other.why.seen, now.why.seen);
+    if (is[kSightings] < 2 && is[kBelief] != 0 && other.frame == now.frame &&
+        seen[kSightings] >= 2 && seen[kBelief] == is[kBelief]) {
+      places.push_back(other.why.place_px());
+    }
+  }
+  return places;
+}
+
+int rule_of(Reason reason) {
+  return reason == Reason::comer ? 29 : reason == Reason::goer ? 30 : 20;
 }
 
 /// A line for each number, with its equation.
 std::string numbers_text(const Explained& said) {
-  const Sighting& now = said.history.back();
-  const Explanation& why = now.why;
-  const auto& [was, is] = std::tie(why.predicted, why.seen);
+  const Explanation& why = said.history.back().why;
   std::string text = fmt::format("track    {}, age {} frames\n", why.track, why.age);
-  const auto add = [&](const char* equation, const char* name, const auto& value) {
-    text += fmt::format("{:<8} {} = {}\n", equation, name, text_of(value));
-  };
-  if (why.assigned != 0) {
-    add("(1)", "x_r, px", now.predicted_px(kPlaceX));
-    add("(2), (4)", "x', px", now.predicted_px(kStaticX));
-    add("(2), (4)", "w, 1/m", was[kInverseDepth_pm]);
-    add("(12)", "deviation from x', px", Vec2(why.static_spread_px2.diagonal().cwiseSqrt()));
-    add("(12)", "miss of x', px", now.miss_px(kStaticX));
-    if (was[kSightings] >= 2) {
-      add("(5)", "x'_M, px", now.predicted_px(kMovingX));
-      add("(13)", "deviation from x'_M, px", std::sqrt(was[kMovingXx] + is[kSeenNoise2]));
-      add("(13)", "miss of x'_M, px", now.miss_px(kMovingX));
-    }
-    add("(17)", "sigma, px", std::sqrt(is[kSeenNoise2]));
-    add("(12)", "p_S, 1/px^2", is[kStaticDensity]);
-    add("(13)", "p_M, 1/px^2", is[kMovingDensity]);
-    add("(15)", "phi, 1/px^2", is[kWrongDensity]);
-    add("(15)", "L'", is[kLogOddsBefore]);
+  for (const auto& [equation, name, values] : numbers_of(why)) {
+    text +=
+        fmt::format("{:<8} {} = {}\n", equation, name,
+                    values.size() == 1 ? text_of(values[0]) : text_of(Vec2(values[0], values[1])));
   }
   if (why.assigned != 0 && why.assigned != why.track) {
     text += fmt::format("(15)     fits neither: track {} ends, another begins\n", why.assigned);
   }
-  if (is[kSightings] >= 2) {
-    add("(15)", "L", is[kLogOdds]);
-    add("(34)", "L_C", why.shown);
-    double all = 0, pull = 0;
-    for (const auto& [corner, weight, belief] : why.voices) {
-      all += double{weight};
-      pull += double{weight} * double{belief};
-      text += fmt::format("(19)     k = {:.4f}, tanh(m/2) = {:+.4f} of {}\n", weight, belief,
-                          text_of(said.place_px(static_cast<std::size_t>(corner))));
-    }
-    add("(18)", "sum of k", all);
-    add("(18)", "sum of k tanh(m/2)", pull);
-    add("(18)", "m - L_C", is[kBelief] - why.shown);
+  for (const auto& [corner, weight, belief] : why.voices) {
+    text += fmt::format("(19)     k = {:.4f}, tanh(m/2) = {:+.4f} of {}\n", weight, belief,
+                        text_of(said.place_px(static_cast<std::size_t>(corner))));
   }
-  for (const auto& [track, sightings] : said.tracks) {
-    const Sighting& other = sightings.back();
-    const bool is_told = is[kSightings] < 2 && is[kBelief] != 0 && other.frame == now.frame &&
-                         other.why.seen[kSightings] >= 2 && other.why.seen[kBelief] == is[kBelief];
-    if (is_told) add("(19)", "corner with this m", other.place_px());
+  for (const Vec2& place : told_px(said)) {
+    text += fmt::format("(19)     corner with this m = {}\n", text_of(place));
   }
-  add("(18)", "m", is[kBelief]);
   const Reason reason = said.frame.reasons[said.corner];
-  const int rule = reason == Reason::comer ? 29 : reason == Reason::goer ? 30 : 20;
-  return text + fmt::format("({})     {}\n", rule, text_of(reason).word);
+  return text + fmt::format("({})     {}\n", rule_of(reason), text_of(reason).word);
 }
 
 std::string history_text(const Explained& said) {
   std::string text = "frame  miss static  miss moving       L       m  verdict\n";
   for (const Sighting& one : said.history) {
     text += fmt::format("{:5}  {:>11}  {:>11}  {:6.2f}  {:6.2f}  {}{}\n", one.frame,
-                        text_of(one.miss_px(kStaticX)), text_of(one.miss_px(kMovingX)),
+                        text_of(one.why.miss_px(kStaticX)), text_of(one.why.miss_px(kMovingX)),
                         one.why.seen[kLogOdds], one.why.seen[kBelief],
-                        word(recording::kVerdicts, one.verdict), said.on(one.object));
+                        word(recording::kVerdicts, one.verdict), said.on(one.truth.object));
   }
   return text;
+}
+
+// ---- JSON
+
+files::Json xy(const Vec2& x) {
+  return {x.x(), x.y()};
+}
+
+/// The corner's numbers, with those that are not there as null.
+files::Json json_of(const Explained& said) {
+  const std::size_t i = said.corner;
+  const auto& [frame, truth] = std::tie(said.frame, said.frame.corner_truth[i]);
+  files::Json json{{"frame", frame.index},
+                   {"t_ns", frame.t_ns},
+                   {"corner", i},
+                   {"place_px", xy(said.place_px(i))},
+                   {"verdict", word(recording::kVerdicts, frame.verdicts[i])},
+                   {"reason", text_of(frame.reasons[i]).word},
+                   {"truth", word(recording::kLabels, truth.label)},
+                   {"object", truth.object},
+                   {"outcome", word(kOutcomes, said.outcomes[i])},
+                   {"kind", kind_of(said)}};
+  if (said.history.empty()) return json;
+  const Explanation& why = said.history.back().why;
+  json["track"] = why.track;
+  json["age"] = why.age;
+  json["assigned"] = why.assigned;
+  json["rule"] = rule_of(frame.reasons[i]);
+  for (const auto& [equation, name, values] : numbers_of(why)) {
+    json["numbers"][name] = values.size() == 1 ? files::Json(values[0]) : files::Json(values);
+  }
+  json["neighbours"] = files::Json::array();
+  for (const auto& [corner, weight, belief] : why.voices) {
+    json["neighbours"].push_back({{"corner", corner}, {"k", weight}, {"tanh(m/2)", belief}});
+  }
+  for (const Sighting& one : said.history) {
+    json["history"].push_back({{"frame", one.frame},
+                               {"place_px", xy(one.why.place_px())},
+                               {"miss_static_px", one.why.miss_px(kStaticX)},
+                               {"miss_moving_px", one.why.miss_px(kMovingX)},
+                               {"L", one.why.seen[kLogOdds]},
+                               {"m", one.why.seen[kBelief]},
+                               {"verdict", word(recording::kVerdicts, one.verdict)},
+                               {"object", one.truth.object}});
+  }
+  return json;
 }
 
 // ---- Picture
@@ -294,8 +344,8 @@ void plot(const std::vector<Sighting>& history, cv::Mat3b strip) {
   cv::putText(strip, "-12 to 12: L grey, m white; misses in px, static blue, moving red",
               {8, strip.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, kWhite, 1, cv::LINE_AA);
   for (const Sighting& one : history) {
-    dot(one.frame, one.miss_px(kStaticX), colour::kNormalEdge);
-    dot(one.frame, one.miss_px(kMovingX), colour::kRebel);
+    dot(one.frame, one.why.miss_px(kStaticX), colour::kNormalEdge);
+    dot(one.frame, one.why.miss_px(kMovingX), colour::kRebel);
     dot(one.frame, double{one.why.seen[kLogOdds]}, kGrey);
     dot(one.frame, double{one.why.seen[kBelief]}, kWhite);
   }
@@ -308,12 +358,12 @@ cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& image) {
   const Sighting& now = said.history.back();
   const cv::Point middle(kWidth_px / 2, kHeight_px / 2);
   const auto at = [&](const Vec2& x) {
-    const Vec2 off = kZoom * (x - now.place_px());
+    const Vec2 off = kZoom * (x - now.why.place_px());
     return middle + cv::Point(cvRound(off.x()), cvRound(off.y()));
   };
   cv::Mat3b picture(kHeight_px + kPlot_px, kWidth_px, cv::Vec3b::all(0));
   cv::Mat3b scene = picture.rowRange(0, kHeight_px), part;
-  const cv::Point2d centre(now.place_px().x(), now.place_px().y());
+  const cv::Point2d centre(now.why.place_px().x(), now.why.place_px().y());
   cv::getRectSubPix(image, scene.size() / kZoom, centre, part);
   cv::resize(part, scene, scene.size(), 0, 0, cv::INTER_CUBIC);
   for (const auto& [corner, weight, belief] : now.why.voices) {
@@ -323,9 +373,9 @@ cv::Mat3b picture_of(const Explained& said, const cv::Mat3b& image) {
              sure * ink + (1 - sure) * kGrey, 1 + cvRound(5 * weight), cv::LINE_AA);
   }
   const auto cross = [&](TrackColumn x, const cv::Scalar& ink) {
-    if (std::isnan(now.miss_px(x))) return;
+    if (std::isnan(now.why.miss_px(x))) return;
     for (const auto& [each, width] : {std::pair(kWhite, 5), std::pair(ink, 2)}) {
-      cv::drawMarker(scene, at(now.predicted_px(x)), each, cv::MARKER_TILTED_CROSS, 16, width);
+      cv::drawMarker(scene, at(now.why.predicted_px(x)), each, cv::MARKER_TILTED_CROSS, 16, width);
     }
   };
   cv::circle(scene, middle, 7, kWhite, 2, cv::LINE_AA);
@@ -349,15 +399,27 @@ void write_picture(const ExplainOptions& options, const Explained& said) {
 }
 
 ExitCode explain(const ExplainOptions& options) {
-  if (!options.track && !options.x_px) {
-    throw std::invalid_argument("give the corner by X and Y, or by --track");
+  const bool is_of_all = !options.track && !options.x_px;
+  if (is_of_all && (!options.json || !options.picture.empty())) {
+    throw std::invalid_argument(
+        "give the corner by X and Y, or by --track; only --json is of all corners, without a "
+        "picture");
   }
-  const Explained said = explained(options);
+  Explained said = explained(options);
+  for (std::size_t i = 0; is_of_all && i < said.frame.corners_px.size(); ++i) {
+    said.ask_for(i);
+    print_out("{}\n", json_of(said).dump());
+  }
+  if (is_of_all) return kFine;
+  if (!options.picture.empty() && !said.history.empty()) write_picture(options, said);
+  if (options.json) {
+    print_out("{}\n", json_of(said).dump());
+    return kFine;
+  }
   if (said.history.empty()) {  // its reason says why it was left out
     print_out("{}", heading(said));
     return kFine;
   }
-  if (!options.picture.empty()) write_picture(options, said);
   print_out("{}{}{}", heading(said), numbers_text(said), history_text(said));
   return kFine;
 }
@@ -370,6 +432,8 @@ app::Options options_of(ExplainOptions& options) {
   all.add("Y", "", &options.y_px, "Row of the corner, px");
   all.add("--track", "N", &options.track, "The corner on this track, in place of X and Y",
           {.excludes = "X"});
+  all.add("--json", "", &options.json,
+          "Print a JSON object; without X, Y and --track a line for each corner of the frame");
   all.add("--picture", "FILE", &options.picture, "Write a picture too (PNG)", {.is_output = true});
   all.add_force(options.force);
   return all;
