@@ -23,8 +23,11 @@ scoring::ScoredEvent false_alarm(int first_frame, int corners, const std::string
   event.first_frame = first_frame;
   event.last_frame = first_frame + 4;
   event.corners = corners;
-  event.views = {
-      {first_frame + 2, 0.1 * first_frame, {50, 50}, {10, 10}, scoring::base64(picture)}};
+  event.views = {{.frame = first_frame + 2,
+                  .t_s = 0.1 * first_frame,
+                  .centre_px = {50, 50},
+                  .half_size_px = {10, 10},
+                  .jpeg_base64 = scoring::base64(picture)}};
   return event;
 }
 

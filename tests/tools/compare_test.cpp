@@ -46,7 +46,29 @@ TEST_F(CompareCommand, ExitsWithZeroForTheSameAndForTheBetter) {
       << same.out;
   const CommandResult better = compare({"a", "b"});
   EXPECT_EQ(better.exit_code, 0) << better.err;
-  EXPECT_NE(better.out.find("improved:\n  near  rebel.f1"), std::string::npos) << better.out;
+  EXPECT_NE(better.out.find("near      rebel.f1   0.550  0.750  +0.200  improved\n"),
+            std::string::npos)
+      << better.out;
+}
+
+TEST_F(CompareCommand, PrintsItsTablesAloneInTheFormatThatIsAskedFor) {
+  suite("a", {0.5, 0.625});
+  suite("b", {0.25, 0.375});
+  const CommandResult csv = compare({"a", "b", "--format", "csv"});
+  EXPECT_EQ(csv.exit_code, 1) << "regressed";
+  EXPECT_NE(csv.out.find("scenario,figure,before,after,change,change_half,verdict\n"
+                         "near,rebel.f1,0.5625,0.3125,-0.25,0,regressed\n"),
+            std::string::npos)
+      << csv.out;
+  EXPECT_TRUE(csv.err.starts_with("regressed: rebel.f1 0.562 -> 0.312")) << csv.err;
+  const CommandResult latex = compare({"a", "b", "--format", "latex"});
+  EXPECT_NE(latex.out.find("near & rebel.f1 & $0.562$ & $0.312$ & $-0.250$ & regressed \\\\\n"),
+            std::string::npos)
+      << latex.out;
+  const CommandResult none = compare({"a", "b", "--format", "tex"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.out, "");
+  EXPECT_NE(none.err.find("it takes text, markdown, csv, latex"), std::string::npos) << none.err;
 }
 
 /// The output of a command on a terminal.

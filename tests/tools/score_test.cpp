@@ -57,6 +57,23 @@ TEST_P(ScoreOfDetector, GivesTheRunsOwnFiguresToTheLastBitTimesIncluded) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST_F(Score, PrintsItsFiguresAsCsvWithAllDigits) {
+  make_run("lcs");
+  const CommandResult result = lcs({"score", "run", "--format", "csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "figure,unit,lcs");
+  const nlohmann::json figures = json("run/metrics.json");
+  int compared = 0;
+  for (; std::getline(lines, line); ++compared) {
+    const std::string key = line.substr(0, line.find(','));
+    EXPECT_EQ(std::stod(line.substr(line.rfind(',') + 1)), figures.at(key).get<double>()) << line;
+  }
+  EXPECT_GT(compared, 50);
+}
+
 TEST_P(ScoreOfDetector, ExportedAndScoredAgainItHasTheSameFiguresOfRebelsAndSquares) {
   make_run(GetParam());
   ASSERT_EQ(lcs({"score", "run", "--write-detections", "said.csv", "--quiet"}).exit_code, 0);

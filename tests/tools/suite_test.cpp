@@ -250,8 +250,12 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
            "  - {metric: frames, max: 7, detector: klt}\n"
            "  - {metric: frames, max: 7, detector: 'lcs:cars'}\n",
            8);
-  const CommandResult command = run({"--seeds", "2", "--beside", "klt", "--beside", "dis"});
+  const CommandResult command =
+      run({"--seeds", "2", "--beside", "klt", "--beside", "dis", "--format", "csv"});
   EXPECT_EQ(command.exit_code, 1) << command.err;
+  for (const char* table : {"scenario,rebel.precision", "\ndetector,rebel.recall"}) {
+    EXPECT_NE(command.out.find(table), std::string::npos) << command.out;
+  }
   EXPECT_NE(command.err.find("klt: failed: near seed 2: "), std::string::npos) << command.err;
   EXPECT_NE(command.err.find("frames of klt is 8, must be at most 7"), std::string::npos);
   const std::string not_asked = "not asked: criteria of lcs:cars (scenarios/near.yaml:9)";

@@ -83,12 +83,20 @@ std::string unknown_command(const std::vector<Command>& commands, int argc, char
 
 }  // namespace
 
+void add_format(app::Options& all, scoring::Format& format) {
+  const auto read = [&format](const std::string& word) { format = scoring::format_of(word); };
+  all.push_back({"--format", "NAME",
+                 "Print only tables: markdown, csv (all digits; KEY_half: half the range or "
+                 "interval) or latex (needs booktabs); text, if not given, is for people",
+                 app::Option::Kind::text, false, read, [] { return app::Texts{}; }});
+}
+
 int fail(const std::string& message) {
   tell(fmt::format("lcs: {}", message));
   return kError;
 }
 
-int run_command_line(const std::vector<Command>& commands, const std::string& help, int argc,
+int run_command_line(const std::vector<Command>& commands, std::string_view help, int argc,
                      char** argv) {
   CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
   app.formatter(std::make_shared<Help>());
@@ -96,7 +104,7 @@ int run_command_line(const std::vector<Command>& commands, const std::string& he
       "--version", app::version_text,
       "Print the versions of this program (with its commit), MuJoCo, the renderer and OpenCV");
   app.require_subcommand(1);
-  app.footer(help);
+  app.footer(std::string(help));
   for (const Command& command : commands) add_command(app, command);
   try {
     app.parse(argc, argv);

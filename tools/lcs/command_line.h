@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/app/option.h"
+#include "tools/scoring/table.h"
 
 namespace lcs::tools {
 
@@ -29,10 +31,10 @@ struct Command {
 
 /// \param help below the options. \param carry_out gets options of which `options_of` is the list.
 template <class Chosen>
-Command command_of(const std::string& about, const std::string& help,
+Command command_of(const std::string& about, std::string_view help,
                    ExitCode (*carry_out)(const Chosen&)) {
   const auto chosen = std::make_shared<Chosen>();
-  return {about, help, options_of(*chosen), [=] { return carry_out(*chosen); }};
+  return {about, std::string(help), options_of(*chosen), [=] { return carry_out(*chosen); }};
 }
 
 /// A request, and whether its command prints only errors and warnings.
@@ -48,12 +50,15 @@ app::Options options_of(Quietable<Request>& chosen) {
   return all;
 }
 
+/// Adds `--format`, of the tables that the command prints.
+void add_format(app::Options& all, scoring::Format& format);
+
 /// Tells on standard error why the program ends. \return its exit code.
 int fail(const std::string& message);
 
 /// \param help of the program, below the commands. \return the exit code.
 /// \throws what the command throws.
-int run_command_line(const std::vector<Command>& commands, const std::string& help, int argc,
+int run_command_line(const std::vector<Command>& commands, std::string_view help, int argc,
                      char** argv);
 
 }  // namespace lcs::tools

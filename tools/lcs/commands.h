@@ -21,8 +21,13 @@ Command kinematics_command();
 Command world_command();
 Command tune_command();
 
+/// The texts of help/ that stand below the options.
+extern const std::string_view kProgramHelp, kRunHelp, kPreviewHelp, kReplayHelp, kScoreHelp,
+    kSuiteHelp, kMergeHelp, kGenerateHelp, kCompareHelp, kExplainHelp, kKinematicsHelp, kWorldHelp,
+    kTuneHelp;
+
 /// Prints the figures and the missed criteria of a run.
-ExitCode show_run(const app::RunMade& made, bool quiet);
+ExitCode show_run(const app::RunMade& made, bool quiet, scoring::Format format);
 
 /// kRegressed, kError if nothing is judged, else kFine.
 ExitCode exit_code_of(suite::Finding finding);

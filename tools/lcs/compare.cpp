@@ -20,32 +20,8 @@ struct CompareOptions {
   bool all = false;
   bool frames = false;
   bool fail_on_regression = true;  ///< always
+  scoring::Format format = {};
 };
-
-constexpr const char* kCompareHelp = R"(Examples:
-  lcs suite --out out/before
-  lcs suite --out out/after --set filter.hypotheses.prior=0.05
-  lcs compare out/before out/after
-  lcs compare out/before out/after --metric 'rebel\.f1' --all
-  lcs compare out/before out/after --markdown out/summary        for a pull request
-  lcs compare out/before out/after --frames      after a change that should change nothing: the first frame of
-                                                 each run that differs, and its corners; also of two runs
-
-The verdict is one of four (tools/suite/README.md). It rests on the means of four main figures over all
-scenarios: F1, false corners a frame, false objects and boxes of movers; with --metric on the figures that it names.
-  regressed            a main mean got worse by more than matters and than chance explains, or a run that had
-                       figures before ended with an error
-  not judged           runs of BEFORE are missing in AFTER or have other frames, or no main figure is in both
-  no regression found  but a loss is not excluded, whose size is printed; or another mean or a scenario
-                       regressed, or a criterion failed
-  equal                no main figure has lost more than the printed amount
-Other means and single scenarios are a list below; one with a single seed has no verdict. Times are never judged.
-
-Exit codes:
-  0  equal, or no regression found; with --frames: all frames are equal
-  1  regressed; with --frames: a frame differs
-  2  not judged, a suite cannot be read, or the two have nothing in common; with --frames: runs of only one side
-)";
 
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
   print_out(
@@ -55,9 +31,11 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
 }
 
 ExitCode compare_frames(const CompareOptions& options) {
-  if (!options.request.metric.empty() || options.request.allow_missing) {
+  if (!options.request.metric.empty() || options.request.allow_missing ||
+      options.format != scoring::Format::text) {
     throw std::invalid_argument(
-        "--frames compares all frames; leave out --metric and --allow-missing");
+        "--frames compares all frames, and prints no table; leave out --metric, --allow-missing "
+        "and --format");
   }
   const app::ComparedFrames compared = app::compare_frames(options.request);
   for (const app::RunFrames& run : compared.runs) {
@@ -75,6 +53,11 @@ ExitCode compare(const CompareOptions& options) {
   if (options.frames) return compare_frames(options);
   const auto [before, after, comparison, verdict, warnings] = app::compare(options.request);
   warn(warnings);
+  if (options.format != scoring::Format::text) {
+    print_out("{}", suite::text_of(comparison, options.all, options.format));
+    tell(verdict.line);
+    return exit_code_of(*verdict.finding);
+  }
   print_suite("before", options.request.before, before);
   print_suite("after ", options.request.after, after);
   print_out("{}", input::printable(suite::text_of(comparison, options.all)));
@@ -92,6 +75,7 @@ app::Options options_of(CompareOptions& options) {
   all.add(
       "--fail-on-regression", "", &options.fail_on_regression,
       "Exit with 1 after a regression: this command always does, lcs suite only if it is asked");
+  add_format(all, options.format);
   return all;
 }
 

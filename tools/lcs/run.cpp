@@ -21,45 +21,8 @@ struct RunOptions {
   bool keys = false;  ///< print the keys of a scenario file in place of a run
   bool view = false;  ///< show the run in a window
   bool quiet = false;
+  scoring::Format format = {};
 };
-
-constexpr const char* kRunHelp = R"(Examples:
-  lcs run scenarios/crossing.yaml
-  lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
-  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.hypotheses.prior=0.05
-  lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
-  lcs run scenarios/crossing.yaml --detector mine --detector-command 'python3 mine.py'
-                                     a detector of yours, in any language (tools/comparators/PROTOCOL.md)
-  lcs run scenarios/crossing.yaml --view                 watch it in a window while it runs
-  lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
-  lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
-  lcs run scenarios/crossing.yaml --set filter.hypotheses.prior=0.05 --recorded out/crossing --no-video
-                                     the changed filter on the frames of an earlier run, in a second
-
-Files written to the folder, all or none:
-  metrics.json   every figure, flat; null where it is not defined (tools/scoring/SCORING.md)
-  frames.csv     a row a frame: sizes of all layers, precision, recall, times
-  layers.jsonl   a line a frame: corners, verdicts, every layer
-  truth.jsonl    a line a frame: the truth of every corner and object
-  detector.json  the detector's name
-  camera.json    the camera, as detectors get it
-  run.json       how it was made: command, program, settings, seed, versions, date
-  warnings.json  problems: the rover or an actor ran into something, fell, tipped over
-  video.mp4      the paper's four panels: corners, edges, circles, squares
-  events.json    with --events or --report: the worst misses and false alarms, with the rules that decided,
-                 and JPEG pictures
-  report.html    with --report: a page for the browser, with the video beside the plots
-  pictures.mjpeg with --events: the pictures of the camera, compressed, for --recorded
-
-Problems of the data (readings of the sensors, times, corners) are counted and printed on stderr, and so are
-problems of the world, each with its first time and place.
-
-Exit codes:
-  0  fine
-  1  a required criterion of the scenario is not met
-  2  error: nothing was written, an earlier result is as it was
-  130  interrupted (Ctrl-C): likewise
-)";
 
 void print_result(const scenario::Scenario& scenario, const std::string& detector,
                   const scoring::Metrics& metrics, std::optional<int> skipped,
@@ -96,7 +59,7 @@ ExitCode run(const RunOptions& options) {
       return [view](const cv::Mat3b& sheet) { return view->show(sheet); };
     };
   }
-  const ExitCode code = show_run(app::run(request, terminal), options.quiet);
+  const ExitCode code = show_run(app::run(request, terminal), options.quiet, options.format);
   if (view) view->hold();
   return code;
 }
@@ -111,13 +74,20 @@ app::Options options_of(RunOptions& options) {
           "and goes on, . goes on by one frame, q closes it; the last frame stays until a key is "
           "pressed");
   all.add_quiet(options.quiet);
+  add_format(all, options.format);
   return all;
 }
 
 }  // namespace
 
-ExitCode show_run(const app::RunMade& made, bool quiet) {
-  if (!quiet) {
+ExitCode show_run(const app::RunMade& made, bool quiet, scoring::Format format) {
+  if (format != scoring::Format::text && !quiet) {
+    std::vector<std::pair<std::string, scoring::Metrics>> detectors;
+    for (const app::DetectorMade& one : made.detectors) {
+      detectors.emplace_back(one.name, one.metrics);
+    }
+    print_out("{}", table_text(output::figure_table(detectors), format));
+  } else if (!quiet) {
     for (const app::DetectorMade& one : made.detectors) {
       print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
     }

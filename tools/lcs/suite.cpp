@@ -24,15 +24,17 @@ struct SuiteEndOptions {
   bool fail_on_regression = false;  ///< exit with kRegressed if worse than the baseline
   bool worst_first = false;
   bool quiet = false;
+  scoring::Format format = {};
 };
 
-/// Adds `--fail-on-regression`, `--worst-first` and `--quiet`.
+/// Adds `--fail-on-regression`, `--worst-first`, `--quiet` and `--format`.
 void add_suite_end(app::Options& all, SuiteEndOptions& options) {
   all.add("--fail-on-regression", "", &options.fail_on_regression,
           "Exit with 1 after a regression against the baseline, as lcs compare does",
           {.needs = "--baseline"});
   all.add("--worst-first", "", &options.worst_first, "Sort the table by F1");
   all.add_quiet(options.quiet);
+  add_format(all, options.format);
 }
 
 /// Text lines for the user: the number of redraws, and for the split `test` its purpose.
@@ -64,7 +66,13 @@ constexpr std::array<ExitCode, 3> kExitCodes{kFine, kCriterionFailed, kError};
 ExitCode show_suite(const app::SuiteMade& made, const app::SuitePlace& place,
                     const SuiteEndOptions& options) {
   const auto& [result, others, comparison, verdict, folder] = made;
-  if (!options.quiet) {
+  if (options.format != scoring::Format::text && !options.quiet) {
+    print_out("{}", suite::suite_table(result, options.worst_first, options.format));
+    if (!others.empty()) {
+      print_out("\n{}\n{}", suite::standing_table(result, others, options.format),
+                suite::beside_table(result, others, options.format));
+    }
+  } else if (!options.quiet) {
     print_out("{}\n", suite::suite_table(result, options.worst_first));
     if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
     if (!result.split.empty()) print_out("{}", told_of_worlds(result));
@@ -93,57 +101,6 @@ struct SuiteOptions {
   bool list = false;
   SuiteEndOptions end;
 };
-
-constexpr const char* kSuiteHelp = R"(Examples:
-  lcs suite                                       every short scenario of the project, 3 seeds each
-  lcs suite --seeds 1 --worst-first               quicker, and where to look first
-  lcs suite --filter crossing --set filter.hypotheses.prior=0.05 --out out/r60
-  lcs suite --recorded out/suite --out out/mine --baseline out/suite
-                                                  the changed filter on the frames of an earlier suite
-  lcs suite --beside klt --beside lcs:lab         F1 of further detectors, and of the filter with the
-                                                  paper's preset
-  lcs suite --detector mine --detector-command 'python3 mine.py' --beside lcs --beside klt
-                                                  a detector of yours beside the filter
-  lcs suite --recorded out/suite --detections csv --out out/mine
-                                                  its CSV files about an earlier suite's frames
-  lcs suite --group sweep --filter distance       a sweep: one run a point and seed
-  lcs suite my_scenarios other.yaml               other scenarios, of any group
-  lcs suite --group all --list                    the list of all scenarios
-  lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
-  lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
-                                                  the filter against other detectors, by family
-  lcs suite --worlds train --count 1000 --keep figures    a thousandth of the disk
-  lcs suite --worlds train --count 1000 --shard 2/16 --out part2
-                                                  a part, on one of 16 machines; lcs merge joins them
-  lcs compare out/before out/suite                the differences of two suites, beyond noise
-
-Worlds are kept in out/worlds/ and drawn anew only where the generator changed. A kept world that was edited is
-refused. Worlds of the split `test` are for stating figures: nothing is chosen by them (scenes/worlds/README.md).
-
-Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
-crashes, or a scenario that is broken, is an error, and the others still run.
-
-The same command continues a suite that was interrupted or killed: finished runs are kept in DIR.unfinished/.
-
-Files written to the folder, all or none:
-  run.json      how it was made: command, program, settings, versions, date
-  suite.json    every figure and criterion of every run
-  report.html   a page for the browser: figures against the baseline, plots, and for each miss and
-                false alarm the reasons and a strip of pictures
-  worlds.html, worlds/   of worlds: three pictures and the plan of each, with its figures
-  junit.xml     a test case a criterion, for continuous integration
-  runs/NAME/seed-N/   the files of `lcs run --events`, without a video
-  beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, without events and
-                      pictures, for lcs compare
-  standing.md   with --beside: a row a detector, with its means, in Markdown
-
-Exit codes:
-  0  fine
-  1  a required criterion is not met; with --fail-on-regression also: regressed from the baseline
-  2  a run ended with an error, or nothing could be run; with --fail-on-regression also: not judged, as runs
-     of the baseline are missing
-  130  interrupted (Ctrl-C): finished runs are kept, an earlier suite is as it was
-)";
 
 ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   std::size_t longest = 0;
@@ -181,17 +138,6 @@ struct MergeOptions {
   app::MergeRequest request;
   SuiteEndOptions end;
 };
-
-constexpr const char* kMergeHelp = R"(Examples:
-  lcs suite --worlds train --count 1000 --shard 1/2 --out part1     on one machine
-  lcs suite --worlds train --count 1000 --shard 2/2 --out part2     on another
-  lcs merge part1 part2 --out out/train
-
-The merged suite has the files of a suite that was made in one go: figures, report, JUnit, tables. The parts
-do not change. On one file system their runs are linked, not copied.
-
-Exit codes: as of lcs suite. 2 also if a part is missing or belongs to another suite.
-)";
 
 ExitCode merge(const MergeOptions& options) {
   Terminal terminal(options.end.quiet);

@@ -104,4 +104,21 @@ std::string table(const scoring::Metrics& metrics) {
   return text;
 }
 
+scoring::FigureTable figure_table(
+    const std::vector<std::pair<std::string, scoring::Metrics>>& detectors) {
+  scoring::FigureTable table{{{"figure", "figure"}, {"unit", "unit"}}};
+  for (const auto& [name, metrics] : detectors) table.columns.push_back({name, name});
+  for (const scoring::Metric& metric : scoring::metrics()) {
+    std::vector<scoring::Cell> row{metric.key, std::string(metric.scale.unit)};
+    bool is_there = false;
+    for (const auto& [name, metrics] : detectors) {
+      const std::optional<double> value = scoring::value(metrics, metric.key);
+      is_there |= value.has_value();
+      row.push_back(value ? scoring::Figure{*value, {}, metric.scale.decimals} : scoring::Cell());
+    }
+    if (is_there) table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 }  // namespace lcs::output

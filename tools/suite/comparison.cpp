@@ -282,32 +282,30 @@ std::string interval_text(const Interval& change) {
                      signed_number(change.mean + *change.half));
 }
 
-/// Lines with aligned columns.
-/// \param of_groups whether to add the number of scenarios to each name.
-std::string lines_of(const std::vector<const Difference*>& differences, bool of_groups = false) {
-  const auto name_of = [&](const Difference& one) {
-    return of_groups ? fmt::format("{} ({})", one.scenario, one.pairs) : one.scenario;
-  };
-  std::size_t scenario_width = 0, metric_width = 0;
-  for (const Difference* difference : differences) {
-    scenario_width = std::max(scenario_width, name_of(*difference).size());
-    metric_width = std::max(metric_width, difference->metric.size());
+/// A row each.
+/// \param of_groups adds the number of scenarios to each name.
+std::string table_of(const std::vector<const Difference*>& differences, bool of_groups,
+                     scoring::Format format) {
+  if (differences.empty()) return "";
+  const std::string names = of_groups ? "mean over" : "scenario";
+  scoring::FigureTable table{{{names, names},
+                              {"figure", "figure"},
+                              {"before", "before"},
+                              {"after", "after"},
+                              {"change", "change"},
+                              {"verdict", "verdict"}}};
+  for (const Difference* one : differences) {
+    const auto figure = [](double value) -> scoring::Cell {
+      return scoring::Figure{value, {}, decimals_of(value)};
+    };
+    const Interval& change = one->change;
+    table.rows.push_back(
+        {of_groups ? fmt::format("{} ({})", one->scenario, one->pairs) : one->scenario, one->metric,
+         figure(one->before), figure(one->after),
+         scoring::Figure{change.mean, change.half, decimals_of(change.mean), true},
+         change.half ? word_of(one->verdict) : "noise unknown"});
   }
-  std::string text;
-  for (const Difference* difference : differences) {
-    text += fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}", name_of(*difference),
-                        scenario_width, difference->metric, metric_width,
-                        number(difference->before), number(difference->after),
-                        signed_number(difference->change.mean), interval_text(difference->change));
-    const std::string_view word = difference->real_word();
-    text += fmt::format("{}{}\n", word.empty() ? "" : "  ", word);
-  }
-  return text;
-}
-
-std::string section(const Comparison& comparison, Change verdict, const std::string& title) {
-  const std::vector<const Difference*> found = comparison.with(verdict);
-  return found.empty() ? "" : fmt::format("{}:\n{}", title, lines_of(found));
+  return table_text(table, format);
 }
 
 }  // namespace
@@ -518,22 +516,25 @@ std::vector<const Difference*> shown_means(const Comparison& comparison, bool al
   return shown;
 }
 
-std::string means_text(const Comparison& comparison, bool all) {
+std::string means_text(const Comparison& comparison, bool all, scoring::Format format) {
   const auto shown = shown_means(comparison, all);
-  if (shown.empty()) return "";
+  if (format != scoring::Format::text || shown.empty()) return table_of(shown, true, format);
   return fmt::format("means over so many scenarios, with the {:.3g} % interval of each change:\n{}",
-                     100 * (1 - comparison.level), lines_of(shown, true));
+                     100 * (1 - comparison.level), table_of(shown, true, format));
 }
 
-std::string text_of(const Comparison& comparison, bool all) {
-  std::string text = means_text(comparison, all);
-  text += section(comparison, Change::regressed, "single scenarios that regressed");
-  text += section(comparison, Change::improved, "single scenarios that improved");
-  text += section(comparison, Change::unknown, "single scenarios that changed, by unknown noise");
-  if (all) {
-    text += section(comparison, Change::moved, "moved (neither way is better)");
-    text += section(comparison, Change::none, "no real change");
+std::string text_of(const Comparison& comparison, bool all, scoring::Format format) {
+  std::vector<const Difference*> singles;
+  for (const Change change :
+       {Change::regressed, Change::improved, Change::unknown, Change::moved, Change::none}) {
+    if (change == Change::moved && !all) break;
+    const std::vector<const Difference*> found = comparison.with(change);
+    singles.insert(singles.end(), found.begin(), found.end());
   }
+  std::string text = means_text(comparison, all, format);
+  if (!text.empty() && !singles.empty()) text += '\n';
+  text += table_of(singles, false, format);
+  if (format != scoring::Format::text) return text;
   if (!comparison.incomparable.empty()) {
     text += "not compared:\n";
     for (const std::string& what : comparison.incomparable) text += fmt::format("  {}\n", what);

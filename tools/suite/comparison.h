@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tools/scoring/metrics.h"
+#include "tools/scoring/table.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/suite_result.h"
 
@@ -113,13 +114,15 @@ Comparison compare(const SuiteResult& before, const SuiteResult& after,
 /// \param all all of them.
 std::vector<const Difference*> shown_means(const Comparison& comparison, bool all);
 
-/// `shown_means` with their changes and intervals, a line each.
-std::string means_text(const Comparison& comparison, bool all);
+/// `shown_means` with their changes and half the width of their intervals, a row each.
+std::string means_text(const Comparison& comparison, bool all,
+                       scoring::Format format = scoring::Format::text);
 
-/// A report for the user: the means, the single scenarios' regressions and improvements, and the
-/// data that could not be compared.
-/// \param all also unchanged figures and figures that are neutral.
-std::string text_of(const Comparison& comparison, bool all);
+/// A report for the user: the means, and the single scenarios that regressed, improved or changed
+/// by unknown noise; as text also the data that could not be compared. \param all also unchanged
+/// figures and figures that are neutral.
+std::string text_of(const Comparison& comparison, bool all,
+                    scoring::Format format = scoring::Format::text);
 
 /// Such as "0.861 -> 0.612 [-0.270, -0.228]", with the interval of the change if it is known.
 std::string change_text(const Difference& difference);

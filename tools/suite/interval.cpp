@@ -1,7 +1,5 @@
 #include "tools/suite/interval.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -76,15 +74,6 @@ std::vector<bool> real_among(const std::vector<double>& chances, double level) {
     real[order[rank]] = true;
   }
   return real;
-}
-
-std::string half_text(double half, int decimals) {
-  const auto width = static_cast<std::size_t>(std::max(3, decimals + 1));
-  std::string digits = fmt::format("{:.{}f}", half, decimals);
-  if (digits.find_first_not_of("0.") == std::string::npos) return std::string(1 + width, ' ');
-  if (decimals >= 2 && digits.starts_with("0.")) digits.erase(0, 1);
-  if (digits.size() > width && decimals == 1) digits = fmt::format("{:.0f}", half);
-  return fmt::format("±{:<{}}", digits, width);
 }
 
 }  // namespace lcs::suite

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace lcs::suite {
@@ -38,9 +37,5 @@ double chance_beyond(const Interval& interval, double least);
 /// Holm's rule: which of the results are real, if at most this share of families of results may
 /// have any that chance made. \param chances the probability of each under chance.
 std::vector<bool> real_among(const std::vector<double>& chances, double level = kFalseAlarms);
-
-/// The half width after a number with this many decimals: "±.05", padded to at least four columns;
-/// blank if it rounds to zero.
-std::string half_text(double half, int decimals);
 
 }  // namespace lcs::suite

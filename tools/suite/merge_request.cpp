@@ -149,23 +149,6 @@ std::string event_text(const fs::path& folder, const Grown& grown, const std::st
 
 // ---- Figures
 
-std::string means_table(const Comparison& comparison) {
-  std::string text = fmt::format(
-      "\n| mean over | figure | before | after | change, {:.3g} % interval | "
-      "|\n|---|---|---|---|---|---|\n",
-      100 * (1 - comparison.level));
-  for (const Difference* mean : shown_means(comparison, false)) {
-    const std::string_view word = mean->real_word();
-    const std::string half =
-        mean->change.half ? fmt::format(" ± {:.3g}", *mean->change.half) : ", noise unknown";
-    text +=
-        fmt::format("| {} ({}) | {} | {:.3g} | {:.3g} | {:+.3g}{} | {} |\n", cell(mean->scenario),
-                    mean->pairs, scoring::metric(mean->metric).heading(), mean->before, mean->after,
-                    mean->change.mean, half, word.empty() ? "" : fmt::format("**{}**", word));
-  }
-  return text;
-}
-
 std::string remarks_text(const SuiteVerdict& verdict) {
   if (verdict.remarks.empty()) return "";
   std::string text = "\n<details><summary>Scenarios, worst first</summary>\n\n";
@@ -196,7 +179,9 @@ void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
   std::string text =
       fmt::format("### {} {}\n\n{}\n", kLights.at(static_cast<std::size_t>(verdict.light)),
                   headline, cell(verdict.line));
-  text += means_table(comparison);
+  text += fmt::format("\nMeans, with the {:.3g} % interval of each change:\n\n{}",
+                      100 * (1 - comparison.level),
+                      means_text(comparison, false, scoring::Format::markdown));
   if (const auto grown = most_grown(before, after)) text += event_text(folder, *grown, pictures_at);
   text += remarks_text(verdict);
   files::write_file(folder / kSummaryFile, text);

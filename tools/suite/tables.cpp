@@ -11,6 +11,7 @@
 
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
+#include "tools/scoring/table.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
@@ -18,92 +19,14 @@
 namespace lcs::suite {
 namespace {
 
-constexpr std::size_t kWidth = 120;
+using scoring::FigureTable;
+using scoring::Format;
 
-struct Column {
-  const scoring::Metric& metric;
-  int width = 4;  ///< of the mean, in characters
-};
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = [] {
-    std::vector<Column> made;
-    for (const std::string_view key : scoring::keys_in(scoring::Table::suite)) {
-      made.push_back({scoring::metric(key)});
-      if (key == "rebel.false_objects_per_100_frames") made.back().width = 5;
-    }
-    return made;
-  }();
-  return all;
-}
 constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
-/// Width of `half_text` for at most two decimals, in characters.
-constexpr int kSpreadWidth = 4;
 
-class TableText {
- public:
-  /// \param longest width of the longest name.
-  TableText(std::size_t longest, bool with_spreads) : with_spreads_(with_spreads) {
-    std::size_t figures_width = 0;
-    for (const Column& column : columns()) figures_width += 1 + cell_width(column);
-    name_width_ = std::min(longest, kWidth - figures_width);
-  }
-
-  void header() {
-    begin("scenario");
-    for (const Column& column : columns()) {
-      // Aligns the label with the numbers; the spreads extend to the right.
-      const std::size_t numbers = std::max<std::size_t>(column.metric.label.size(), column.width);
-      const std::size_t rest = cell_width(column) - numbers;
-      text_ += fmt::format(" {:>{}}{:{}}", column.metric.label, numbers, "", rest);
-    }
-    end();
-  }
-
-  template <class SpreadOf>
-  void row(const std::string& name, const SpreadOf& spread_of) {
-    begin(name);
-    for (const Column& column : columns()) {
-      const std::size_t rest =
-          cell_width(column) - column.width - (with_spreads_ ? kSpreadWidth : 0);
-      const std::optional<Spread> spread = spread_of(column.metric.key);
-      text_ += fmt::format(" {:{}}", "", rest);
-      text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width,
-                                    column.metric.scale.decimals)
-                      : fmt::format("{:>{}}", "-", column.width);
-      if (with_spreads_) {
-        text_ += spread ? half_text(spread->half, column.metric.scale.decimals)
-                        : std::string(kSpreadWidth, ' ');
-      }
-    }
-    end();
-  }
-
-  void remark(const std::string& name, const std::string& words) {
-    begin(name);
-    text_ += " " + words;
-    end();
-  }
-  /// The table so far.
-  std::string text() const { return text_; }
-
- private:
-  std::size_t cell_width(const Column& column) const {
-    return std::max<std::size_t>(column.metric.label.size(),
-                                 column.width + (with_spreads_ ? kSpreadWidth : 0));
-  }
-  void begin(const std::string& name) {
-    text_ += fmt::format("{:<{}}", name, name_width_);
-    if (name.size() > name_width_) text_ += fmt::format("\n{:{}}", "", name_width_);
-  }
-  void end() {
-    while (text_.ends_with(' ')) text_.pop_back();
-    text_ += '\n';
-  }
-
-  std::size_t name_width_ = 0;
-  bool with_spreads_;
-  std::string text_;
-};
+scoring::Cell cell_of(const Interval& mean, bool with_half, int decimals, bool is_signed = false) {
+  return scoring::Figure{mean.mean, with_half ? mean.half : std::nullopt, decimals, is_signed};
+}
 
 /// Sort key: errors first, then by F1 upwards, then scenarios without F1.
 double badness_key(const ScenarioResult& scenario) {
@@ -212,60 +135,6 @@ std::vector<Row> leads(std::vector<Row> rows) {
   return rows;
 }
 
-/// Formats rows of figures below a header of the detectors' names.
-class Columns {
- public:
-  Columns(std::size_t name_width, std::vector<std::string> names, bool with_intervals)
-      : name_width_(name_width), names_(std::move(names)), half_width_(with_intervals ? 5 : 0) {}
-
-  void header(std::string_view figure, std::size_t first = 0) {
-    text_ += fmt::format("{:<{}}", figure, name_width_);
-    for (std::size_t d = 0; d < names_.size(); ++d) {
-      text_ += fmt::format("  {:>{}}{:{}}", d < first ? "" : names_[d], width(d), "", half_width_);
-    }
-    end();
-  }
-  void row(const Row& row) {
-    text_ += fmt::format("{:<{}}", row.name, name_width_);
-    for (std::size_t d = 0; d < names_.size(); ++d) cell({row.figures[d], {}}, d, 2, false);
-    end();
-  }
-  void row(const MeanRow& row, int decimals, std::size_t first = 0) {
-    text_ += fmt::format("{:<{}}", row.name, name_width_);
-    for (std::size_t d = 0; d < names_.size(); ++d) {
-      if (d < first) {
-        text_ += fmt::format("  {:{}}", "", width(d) + half_width_);
-      } else {
-        cell(row.means[d], d, decimals, first > 0);
-      }
-    }
-    end();
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::size_t width(std::size_t d) const {
-    return std::max<std::size_t>(half_width_ > 0 ? 6 : 5, names_[d].size());
-  }
-  void cell(const Interval& mean, std::size_t d, int decimals, bool is_signed) {
-    const std::string number = is_signed ? fmt::format("{:+.{}f}", mean.mean, decimals)
-                                         : fmt::format("{:.{}f}", mean.mean, decimals);
-    text_ += fmt::format("  {:>{}}", number, width(d));
-    if (half_width_ > 0) {
-      text_ += fmt::format("{:<{}}", half_text(mean.half.value_or(0), decimals), half_width_);
-    }
-  }
-  void end() {
-    while (text_.ends_with(' ')) text_.pop_back();
-    text_ += '\n';
-  }
-
-  std::size_t name_width_;
-  std::vector<std::string> names_;
-  std::size_t half_width_;  ///< 0: no intervals
-  std::string text_;
-};
-
 /// Compares the suite's detector with the detector of a column in one line.
 std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
                          const std::vector<Row>& rows, const std::vector<Row>& times,
@@ -288,45 +157,51 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
 
 }  // namespace
 
-std::string suite_table(const SuiteResult& suite, bool worst_first) {
+std::string suite_table(const SuiteResult& suite, bool worst_first, Format format) {
   std::vector<const ScenarioResult*> rows;
   for (const ScenarioResult& scenario : suite.scenarios) rows.push_back(&scenario);
   if (worst_first) {
     std::ranges::stable_sort(
         rows, [](const auto* a, const auto* b) { return badness_key(*a) < badness_key(*b); });
   }
-  const bool of_worlds = is_of_worlds(suite);
-  const bool with_spreads =
-      of_worlds || std::ranges::any_of(rows, [](const auto* row) { return row->runs.size() > 1; });
+  const bool of_worlds = is_of_worlds(suite), is_text = format == Format::text;
   std::vector<std::string> groups = groups_of(suite);
   if (rows.size() == 1) std::erase(groups, kAll);  // the row of the scenario itself
-  std::size_t longest = std::string_view("scenario").size();
-  for (const ScenarioResult* row : rows) longest = std::max(longest, marked(*row).size());
-  for (const std::string& group : groups) {
-    longest = std::max(longest, group_row_name(suite, group).size());
-  }
 
-  TableText table(longest, with_spreads);
-  table.header();
-  for (const ScenarioResult* row : rows) {
-    const bool has_figures =
-        std::ranges::any_of(row->runs, [](const RunResult& run) { return !run.metrics.empty(); });
-    if (has_figures) {
-      table.row(marked(*row), [&](std::string_view name) { return over_seeds(*row, name); });
-    } else {
-      table.remark(marked(*row), "no figures");
+  const std::vector<std::string_view> keys = scoring::keys_in(scoring::Table::suite);
+  FigureTable table{{{"scenario", "scenario"}}};
+  for (const std::string_view key : keys) {
+    const scoring::Metric& metric = scoring::metric(key);
+    table.columns.push_back({metric.key, is_text ? metric.label : metric.heading()});
+  }
+  if (!is_text) table.columns.push_back({"outcome", "outcome"});  // text has a mark before the name
+  const auto add = [&](const std::string& name, const char* outcome, const auto& cell_in) {
+    std::vector<scoring::Cell>& cells = table.rows.emplace_back();
+    cells.emplace_back(name);
+    for (const std::string_view key : keys) {
+      cells.push_back(cell_in(key, scoring::metric(key).scale.decimals));
     }
+    if (!is_text) cells.emplace_back(outcome);
+  };
+  for (const ScenarioResult* row : rows) {
+    add(is_text ? marked(*row) : row->name, word_of(outcome_of(*row)),
+        [&](std::string_view key, int decimals) -> scoring::Cell {
+          const std::optional<Spread> spread = over_seeds(*row, key);
+          if (!spread) return {};
+          return cell_of({spread->mean, spread->half, 0, 0}, spread->count > 1, decimals);
+        });
   }
   for (const std::string& group : groups) {
-    table.row(group_row_name(suite, group), [&](std::string_view name) -> std::optional<Spread> {
-      const std::vector<double> figures = figures_of_group(suite, group, name);
-      if (figures.empty()) return std::nullopt;
-      const Interval mean = interval_of(figures);
-      return Spread{mean.mean, of_worlds ? mean.half.value_or(0) : 0, 1};
+    add(group_row_name(suite, group), "", [&](std::string_view key, int decimals) -> scoring::Cell {
+      const std::vector<double> figures = figures_of_group(suite, group, key);
+      if (figures.empty()) return {};
+      return cell_of(interval_of(figures), of_worlds, decimals);
     });
   }
-  std::string text = table.text();
-  for (const auto& [metric, width] : columns()) {
+  std::string text = table_text(table, format);
+  if (!is_text) return text;
+  for (const std::string_view key : keys) {
+    const scoring::Metric& metric = scoring::metric(key);
     text += fmt::format("  {:<10} {}: {}\n", metric.label, metric.key, metric.first_sentence());
   }
   if (of_worlds) text += kWorldsLegend;
@@ -374,81 +249,98 @@ std::vector<std::string> warnings(const SuiteResult& suite) {
   return lines;
 }
 
-std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
-  std::string text = "| detector |", rule = "|---|";
+std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others,
+                           Format format) {
   const std::vector<std::string_view> keys = scoring::keys_in(scoring::Table::detectors);
+  FigureTable table{{{"detector", "detector"}}};
   for (const std::string_view key : keys) {
-    text += fmt::format(" {} |", scoring::metric(key).heading());
-    rule += "---|";
+    table.columns.push_back({std::string(key), scoring::metric(key).heading()});
   }
-  text += '\n' + rule + '\n';
   const auto add = [&](const SuiteResult& by) {
-    text += fmt::format("| `{}` |", by.detector);
+    std::vector<scoring::Cell>& cells = table.rows.emplace_back();
+    cells.emplace_back(format == Format::markdown ? '`' + by.detector + '`' : by.detector);
     for (const std::string_view key : keys) {
       const std::vector<double> figures = figures_of_group(by, kAll, key);
       if (figures.empty()) {
-        text += " - |";
+        cells.emplace_back();
         continue;
       }
-      const Interval mean = interval_of(figures);
-      const int decimals = key == scoring::kF1 ? 3 : scoring::metric(key).scale.decimals;
-      text += fmt::format(" {:.{}f}", mean.mean, decimals);
-      const bool has_interval = is_of_worlds(by) && !scoring::metric(key).is_time();
-      if (has_interval) text += half_text(mean.half.value_or(0), decimals);
-      while (text.ends_with(' ')) text.pop_back();
-      text += " |";
+      const scoring::Metric& metric = scoring::metric(key);
+      cells.push_back(cell_of(interval_of(figures), is_of_worlds(by) && !metric.is_time(),
+                              key == scoring::kF1 ? 3 : metric.scale.decimals));
     }
-    text += '\n';
   };
   add(suite);
   for (const SuiteResult& other : others) add(other);
-  text += fmt::format("\nMeans over {}; {} and {} over the {} with {}.\n",
-                      counted(std::ssize(suite.scenarios), "scenario"),
-                      scoring::metric(scoring::kF1).label, scoring::metric("rebel.recall").label,
-                      std::ssize(figures_of_group(suite, kAll, scoring::kF1)),
-                      scoring::metric(scoring::kF1).label);
-  return text;
+  return table_text(table, format);
 }
 
-std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
-  std::vector<Row> rows = rows_of(suite, others, scoring::kF1);
+std::string standing_page(const SuiteResult& suite, std::span<const SuiteResult> others) {
+  return fmt::format("{}\nMeans over {}; {} and {} over the {} with {}.\n",
+                     standing_table(suite, others, Format::markdown),
+                     counted(std::ssize(suite.scenarios), "scenario"),
+                     scoring::metric(scoring::kF1).label, scoring::metric("rebel.recall").label,
+                     std::ssize(figures_of_group(suite, kAll, scoring::kF1)),
+                     scoring::metric(scoring::kF1).label);
+}
+
+std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others,
+                         Format format) {
+  const std::vector<Row> rows = rows_of(suite, others, scoring::kF1);
   const std::string& f1 = scoring::metric(scoring::kF1).label;
-  if (rows.empty()) return fmt::format("no scenario has an {} by every detector\n", f1);
-  const std::vector<Row> times = rows_of(suite, others, kTime);
-  std::string lines;
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    lines += summary_line(suite, others[i], rows, times, i + 1);
+  if (rows.empty()) {
+    if (format != Format::text) return "";
+    return fmt::format("no scenario has an {} by every detector\n", f1);
   }
-  const std::vector<MeanRow> means = means_of(suite, rows);
   const bool of_worlds = is_of_worlds(suite);
-
-  const std::string ahead = fmt::format("{} ahead by", suite.detector);
-  std::size_t longest = of_worlds ? ahead.size() : 0;
-  for (const std::string_view key : kFalse) {
-    if (of_worlds) longest = std::max(longest, scoring::metric(key).heading().size());
-  }
-  for (const Row& row : rows) longest = std::max(longest, row.name.size());
-  for (const MeanRow& row : means) longest = std::max(longest, row.name.size());
-  std::vector<std::string> names{suite.detector};
-  for (const SuiteResult& other : others) names.push_back(other.detector);
-
-  Columns table(longest, names, of_worlds);
-  table.header(f1);
-  for (const Row& row : rows) table.row(row);
-  for (const MeanRow& row : means) table.row(row, 2);
-  if (of_worlds) {
-    table.header(ahead, 1);
-    for (const MeanRow& row : means_of(suite, leads(rows))) table.row(row, 3, 1);
-    // In the groups without F1, where nothing moves, and over all.
-    for (const std::string_view key : kFalse) {
-      table.header(scoring::metric(key).heading());
-      for (const MeanRow& row : means_of(suite, rows_of(suite, others, key), rows)) {
-        table.row(row, 1);
+  const auto table_of = [&](std::string_view key, const std::string& heading, bool with_own) {
+    FigureTable table{{{std::string(key), heading}}};
+    if (with_own) table.columns.push_back({suite.detector, suite.detector});
+    for (const SuiteResult& other : others) {
+      table.columns.push_back({other.detector, other.detector});
+    }
+    return table;
+  };
+  const auto add = [&](FigureTable& table, const std::vector<MeanRow>& means, int decimals,
+                       bool is_lead) {
+    for (const MeanRow& mean : means) {
+      std::vector<scoring::Cell>& cells = table.rows.emplace_back();
+      cells.emplace_back(mean.name);
+      for (std::size_t d = is_lead ? 1 : 0; d < mean.means.size(); ++d) {
+        cells.push_back(cell_of(mean.means[d], of_worlds, decimals, is_lead));
       }
     }
-    lines = kIntervalLegend + lines;
+  };
+
+  FigureTable figures = table_of(scoring::kF1, f1, true);
+  for (const Row& row : rows) {
+    std::vector<scoring::Cell>& cells = figures.rows.emplace_back();
+    cells.emplace_back(row.name);
+    for (const double figure : row.figures) cells.emplace_back(scoring::Figure{figure});
   }
-  return table.text() + lines;
+  add(figures, means_of(suite, rows), 2, false);
+  std::vector<FigureTable> tables{figures};
+  if (of_worlds) {
+    tables.push_back(table_of("ahead", fmt::format("{} ahead by", suite.detector), false));
+    add(tables.back(), means_of(suite, leads(rows)), 3, true);
+    // In the groups without F1, where nothing moves, and over all.
+    for (const std::string_view key : kFalse) {
+      tables.push_back(table_of(key, scoring::metric(key).heading(), true));
+      add(tables.back(), means_of(suite, rows_of(suite, others, key), rows), 1, false);
+    }
+  }
+  std::string text;
+  for (const FigureTable& table : tables) {
+    if (!text.empty() && format != Format::text) text += '\n';
+    text += table_text(table, format);
+  }
+  if (format != Format::text) return text;
+  if (of_worlds) text += kIntervalLegend;
+  const std::vector<Row> times = rows_of(suite, others, kTime);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    text += summary_line(suite, others[i], rows, times, i + 1);
+  }
+  return text;
 }
 
 }  // namespace lcs::suite

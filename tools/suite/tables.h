@@ -9,16 +9,18 @@
 #include <string>
 #include <vector>
 
+#include "tools/scoring/table.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/verdict.h"
 
 namespace lcs::suite {
 
-/// A row per scenario (mean over seeds and, if it shows, half the range), a row per group, and a
-/// legend. At most 120 columns wide; a long name has a line of its own.
+/// A row per scenario (mean over seeds, and half the range of several) and a row per group (for
+/// worlds with the 95 % interval); as text also a legend.
 /// \param worst_first sorts by F1, errors first; otherwise in the suite's order.
-std::string suite_table(const SuiteResult& suite, bool worst_first);
+std::string suite_table(const SuiteResult& suite, bool worst_first,
+                        scoring::Format format = scoring::Format::text);
 
 /// A line per error and unmet criterion. Equal messages of several seeds share a line.
 std::vector<std::string> problems(const SuiteResult& suite);
@@ -28,19 +30,24 @@ std::vector<std::string> problems(const SuiteResult& suite);
 std::vector<std::string> warnings(const SuiteResult& suite);
 
 /// F1 of rebel corners (mean over seeds): a row per scenario with a figure by every detector, and
-/// the means over each group and over all. Then a line per other detector: the number of scenarios
-/// in which the suite's detector is ahead, the scenario with the least lead, and the ratio of the
-/// step times (mean over scenarios of the ratio of medians).
-/// For worlds, the means have 95 % intervals, and two blocks follow: the lead over each other
-/// detector, paired by world; and the false objects in static worlds and in all worlds.
-std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others);
+/// the means over each group and over all. As text also a line per other detector: the number of
+/// scenarios in which the suite's detector is ahead, the scenario with the least lead, and the
+/// ratio of the step times (mean over scenarios of the ratio of medians). For worlds, the means
+/// have 95 % intervals, and further tables follow: the lead over each other detector, paired by
+/// world; and false corners and objects in static worlds and in all worlds.
+std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others,
+                         scoring::Format format = scoring::Format::text);
 
 inline constexpr const char* kStandingFile = "standing.md";
 
-/// A Markdown table with a row per detector: F1 and recall of rebel corners, recall of movers'
-/// boxes, false objects, and times of a frame. Each is a mean over the scenarios that have the
-/// figure, for worlds (times apart) with the 95 % interval, `±`. An undefined figure is `-`.
-std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others);
+/// A row per detector: F1 and recall of rebel corners, recall of movers' boxes, false objects, and
+/// times of a frame. Each is a mean over the scenarios that have the figure, for worlds (times
+/// apart) with the 95 % interval.
+std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others,
+                           scoring::Format format);
+
+/// `standing_table` in Markdown, with a line that says over how many scenarios.
+std::string standing_page(const SuiteResult& suite, std::span<const SuiteResult> others);
 
 inline constexpr const char* kJunitFile = "junit.xml";
 
