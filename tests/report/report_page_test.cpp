@@ -238,6 +238,16 @@ TEST_F(Report, HasEachScenarioWithItsMeanSpreadAndOutcome) {
   EXPECT_EQ(all.at("baseline"), nullptr);
 }
 
+TEST_F(Report, HasTheF1OfEachScenarioByOtherDetectors) {
+  const SuiteResult suite = suite_of({scenario_with("near", {run_with(1, 0.8)})});
+  SuiteResult other = suite_of({scenario_with("near", {run_with(1, 0.5), run_with(2, 0.75)})});
+  other.detector = "klt";
+  const auto verdict = suite::verdict_of(in_folder(suite), nullptr, nullptr);
+  const json data = json::parse(report_data(in_folder(suite), verdict, nullptr, kPictureBudget,
+                                            std::span<const SuiteResult>(&other, 1)));
+  EXPECT_EQ(data.at("beside"), json::parse(R"([{"detector": "klt", "f1": {"near": 0.625}}])"));
+}
+
 TEST_F(Report, SetsTheBaselineBesideScenariosOfTheSameName) {
   const SuiteResult now = suite_of(
       {scenario_with("old", {run_with(1, 0.8)}), scenario_with("new", {run_with(1, 0.7)})});

@@ -141,7 +141,7 @@ SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::Su
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   if (!others.empty()) {
     files::write_file(folder.staging() / suite::kStandingFile,
-                      suite::standing_table(result, others));
+                      suite::standing_page(result, others));
   }
   const suite::SuiteInFolder made{result, folder.staging()};
   std::optional<suite::SuiteInFolder> before;
@@ -158,7 +158,7 @@ SuiteMade finish_suite(files::Output& folder, const SuitePlace& place, suite::Su
       made, before ? &*before : nullptr, comparison ? &*comparison : nullptr, others);
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others, verdict);
   report::write_report(folder.staging() / report::kReportFile, made, verdict,
-                       against ? &*against : nullptr);
+                       against ? &*against : nullptr, others);
   if (!result.split.empty()) {
     const worlds::Split& split = worlds::split(result.split);
     report::write_worlds_page(folder.staging(),

@@ -493,13 +493,29 @@ function sweepSection() {
         : el('p', { class: 'nothing' }, 'More than two keys are swept: see the table above.'))));
 }
 
+// ---- Beside other detectors
+
+/** F1 of each scenario (up) over that of another detector (right): a dot above the diagonal is a lead. */
+function scatter({ detector, f1 }) {
+  const dots = data.scenarios.filter((s) => isNumber(f1[s.name]) && s.figures['rebel.f1']).map((s) => {
+    const own = s.figures['rebel.f1'].mean, other = f1[s.name];
+    return el('a', { href: '#' + address(anchor(s)), style: `left:${100 * other}%;bottom:${100 * own}%`,
+      title: s.name + ': ' + digits(own) + ', ' + detector + ' ' + digits(other), onclick: () => openAt(anchor(s)) });
+  });
+  return el('figure', { class: 'scatter' }, el('div', null, ...dots), el('figcaption', { class: 'small' },
+    F1 + ' of ' + data.detector + ' (up) over ' + detector + ' (right), each from 0 to 1'));
+}
+
+const besideSection = () => !data.beside?.length ? null : el('section', { id: 'beside' },
+  el('h2', null, 'Beside other detectors'), el('div', { class: 'plots' }, ...data.beside.map(scatter)));
+
 // ---- The page
 
 head();
 const first = data.scenarios[0];
 document.getElementById('page').append(worst(), ...(data.is_run ? [
   figureTable('figures', '', [figureRow(null, null, first.figures)]), scenarioBody(first)] : [
-  groupTable(), scenarioTable(), sweepSection(),
+  groupTable(), scenarioTable(), sweepSection(), besideSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
 ]).filter(Boolean), foot());
 // Opens the place that the page's address points to.

@@ -364,6 +364,20 @@ std::set<std::string> shown_whole(const SuiteResult& suite, const suite::SuiteVe
   return names;
 }
 
+/// The mean F1 of each scenario by other detectors.
+files::Json beside_json(std::span<const SuiteResult> others) {
+  files::Json all = files::Json::array();
+  for (const SuiteResult& other : others) {
+    files::Json f1 = files::Json::object();
+    for (const ScenarioResult& scenario : other.scenarios) {
+      if (const auto spread = suite::over_seeds(scenario, scoring::kF1))
+        f1[scenario.name] = spread->mean;
+    }
+    all.push_back({{"detector", other.detector}, {"f1", f1}});
+  }
+  return all;
+}
+
 /// The page's data. The budget limits only the pictures.
 files::Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
                     const Against* against, std::size_t budget) {
@@ -410,8 +424,11 @@ files::Json data_of(const SuiteInFolder& suite, const suite::SuiteVerdict& verdi
 }  // namespace
 
 std::string report_data(const SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
-                        const Against* against, std::size_t picture_budget) {
-  return files::json_text(data_of(suite, verdict, against, picture_budget));
+                        const Against* against, std::size_t picture_budget,
+                        std::span<const SuiteResult> others) {
+  files::Json data = data_of(suite, verdict, against, picture_budget);
+  data["beside"] = beside_json(others);
+  return files::json_text(data);
 }
 
 std::string run_report_data(const SuiteInFolder& suite) {
@@ -429,9 +446,10 @@ std::string run_report_data(const SuiteInFolder& suite) {
 }
 
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::SuiteVerdict& verdict, const Against* against) {
+                  const suite::SuiteVerdict& verdict, const Against* against,
+                  std::span<const SuiteResult> others) {
   const std::string title = "lcs suite: " + suite.suite.detector;
-  const std::string data = report_data(suite, verdict, against);
+  const std::string data = report_data(suite, verdict, against, kPictureBudget, others);
   write_page(file,
              {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
 }

@@ -29,10 +29,12 @@ struct Against {
 
 /// Writes the page. It shows the frames.csv and events.json of each run that has them.
 /// \param against null without a baseline.
+/// \param others results of other detectors on the same scenarios, each with a scatter plot of F1.
 /// \throws files::OutputError; std::runtime_error that names an unreadable frames.csv or
 ///   events.json of the suite. The page itself reports unreadable files of the baseline.
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::SuiteVerdict& verdict, const Against* against);
+                  const suite::SuiteVerdict& verdict, const Against* against,
+                  std::span<const suite::SuiteResult> others = {});
 
 /// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
 /// \throws as `write_report`.
@@ -45,7 +47,8 @@ inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
 
 /// The JSON text of a suite. \throws std::runtime_error as `write_report`.
 std::string report_data(const suite::SuiteInFolder& suite, const suite::SuiteVerdict& verdict,
-                        const Against* against, std::size_t picture_budget = kPictureBudget);
+                        const Against* against, std::size_t picture_budget = kPictureBudget,
+                        std::span<const suite::SuiteResult> others = {});
 
 /// The JSON text of a single run, with its video if its folder has one.
 std::string run_report_data(const suite::SuiteInFolder& suite);
