@@ -63,6 +63,8 @@ struct EventView {
   double t_s = 0;
   Vec2 centre_px = Vec2::Zero();
   Vec2 half_size_px = Vec2::Zero();
+  /// The part of the image that the picture shows; of size 0 without a picture.
+  Vec2 shown_from_px = Vec2::Zero(), shown_size_px = Vec2::Zero();
   std::string jpeg_base64;  ///< the annotated picture; empty: none
 };
 
