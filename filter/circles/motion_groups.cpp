@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "filter/kinematics/geometry.h"

@@ -1,7 +1,6 @@
 #include "filter/detect/event_corners.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <span>
 #include <tuple>

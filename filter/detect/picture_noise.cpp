@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "filter/kinematics/camera.h"
 #include "filter/kinematics/geometry.h"
 
 namespace lcs {

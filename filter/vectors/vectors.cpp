@@ -1,7 +1,5 @@
 #include "filter/vectors/vectors.h"
 
-#include <cstdint>
-
 namespace lcs {
 #include "filter/vectors/lanes.inl"
 #include "filter/vectors/loops.inl"

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 namespace lcs::worlds {
 namespace {

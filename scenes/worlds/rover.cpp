@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include "scenarios/imu_presets.h"
 #include "sim/base/pose.h"

@@ -6,9 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "scenarios/scenes.h"
 #include "sim/scene/model.h"

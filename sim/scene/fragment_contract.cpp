@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "sim/scene/gait.h"
 

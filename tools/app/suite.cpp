@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -14,7 +13,6 @@
 #include "tools/app/how_made.h"
 #include "tools/bench/detector.h"
 #include "tools/files/json_node.h"
-#include "tools/files/output.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/parts.h"
 #include "tools/suite/sequential.h"

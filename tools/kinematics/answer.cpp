@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <string>
 #include <tuple>
 
 #include "tools/files/json_node.h"

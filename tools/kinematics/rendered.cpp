@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "filter/detect/fast.h"
-#include "filter/paper/any_filter.h"
 #include "sim/simulation.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"

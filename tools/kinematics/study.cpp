@@ -8,9 +8,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
-#include "sim/drive.h"
 #include "sim/imu/imu_noise.h"
 #include "tools/bench/detector.h"
 #include "tools/files/csv.h"

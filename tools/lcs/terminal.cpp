@@ -1,7 +1,6 @@
 #include "tools/lcs/terminal.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <stdio_ext.h>
 #include <sys/ioctl.h>
@@ -9,13 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <mutex>
-#include <utility>
 
 #include "scenarios/input/message.h"
 #include "scenarios/shipped.h"

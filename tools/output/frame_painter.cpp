@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "tools/scoring/score_rebels.h"
 #include "tools/scoring/score_squares.h"

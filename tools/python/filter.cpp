@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <memory>
 #include <vector>
 
 #include "filter/detect/gap_picture.h"
@@ -10,7 +9,6 @@
 #include "tools/bench/detector.h"
 #include "tools/bench/timed.h"
 #include "tools/python/arrays.h"
-#include "tools/python/scenario.h"
 #include "tools/python/type.h"
 #include "tools/recording/box.h"
 

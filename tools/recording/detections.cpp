@@ -6,13 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <span>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"

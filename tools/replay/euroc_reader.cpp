@@ -9,7 +9,6 @@
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/message.h"
 #include "scenarios/shipped.h"
-#include "sim/base/rotation.h"
 #include "tools/files/json_node.h"
 #include "tools/process/child.h"
 #include "tools/replay/motion_tables.h"

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
-#include "sim/base/rotation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 

@@ -1,10 +1,6 @@
 #include "tools/replay/recorded.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "tools/recording/box.h"
 #include "tools/scoring/metrics.h"

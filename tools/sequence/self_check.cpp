@@ -15,7 +15,6 @@
 
 #include "sim/camera/linear_light.h"
 #include "sim/truth/inner_pixels.h"
-#include "tools/sequence/true_flow.h"
 #include "tools/sequence/writer.h"
 
 namespace lcs::sequence {

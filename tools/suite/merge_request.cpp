@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "tools/files/output_file.h"
 #include "tools/scoring/events.h"
