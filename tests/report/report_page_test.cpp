@@ -354,11 +354,11 @@ TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
   EXPECT_EQ(told["frames"].at("precision"), (json{nullptr, nullptr, nullptr}));
   const json& event = told.at("events").at(0);
   EXPECT_EQ(event.at("kind"), "found_late");
-  EXPECT_EQ(event.at("object"), "box");
+  EXPECT_EQ(event.at("object_name"), "box");
   EXPECT_EQ(event.at("corners"), 12);
   EXPECT_EQ(event.at("reasons")[0].at("word"), "normal_edge");
   EXPECT_EQ(event["reasons"][0].at("meaning"), text_of(Reason::normal_edge).meaning);
-  EXPECT_EQ(event.at("views")[0].at("jpeg"), "AAAAAAAA");
+  EXPECT_EQ(event.at("views")[0].at("jpeg_base64"), "AAAAAAAA");
 }
 
 TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone) {
@@ -389,7 +389,7 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
   EXPECT_EQ(run["events"][1].at("is_new"), true);
   EXPECT_EQ(run["events"][2].at("is_new"), true);
   ASSERT_EQ(run["before"].at("gone").size(), 1u);
-  EXPECT_EQ(run["before"]["gone"][0].at("object"), "car");
+  EXPECT_EQ(run["before"]["gone"][0].at("object_name"), "car");
   EXPECT_TRUE(run["before"]["gone"][0].at("views").empty());
 
   // A faulty baseline is reported, and the suite is still shown.
@@ -462,7 +462,7 @@ TEST_F(Report, KeepsThePicturesOfTheCostliestEventsWithinItsBudget) {
   }
   const json all = data(suite_of({scenario_with("one", runs)}), nullptr, 350);
   const auto kept = [&](int run, int event) {
-    return all["scenarios"][0]["runs"][run]["events"][event]["views"][0]["jpeg"] != "";
+    return all["scenarios"][0]["runs"][run]["events"][event]["views"][0]["jpeg_base64"] != "";
   };
   EXPECT_TRUE(kept(0, 0));
   EXPECT_TRUE(kept(0, 1));

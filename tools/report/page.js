@@ -210,7 +210,7 @@ function framePlots(run, onPoint) {
   const f = run.frames;
   // Every row has a time, and an event's frame is the index of a row.
   const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
-  const bands = (run.events || []).filter((event) => event.family !== 'squares').map((event) => ({ from: time(event.first), to: time(event.last),
+  const bands = (run.events || []).filter((event) => event.family !== 'squares').map((event) => ({ from: time(event.first_frame), to: time(event.last_frame),
     kind: event.of > 0 ? 'miss' : 'false' }));
   const common = { x: f.t_s, xName: 's', sync: 'run' + ++plotted, onPoint };
   const was = run.before && run.before.frames;
@@ -268,12 +268,12 @@ function overTime(run) {
 // ---- Events
 
 function headline(event) {
-  const frames = event.first === event.last ? 'frame ' + event.first : 'frames ' + event.first + ' to ' + event.last;
+  const frames = event.first_frame === event.last_frame ? 'frame ' + event.first_frame : 'frames ' + event.first_frame + ' to ' + event.last_frame;
   const cost = event.family === 'squares' ? event.frames + (event.of_frames ? ' of ' + event.of_frames : '') + ' frames'
     : event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed' + (event.radial ? ', ' + event.radial + ' of them radial' : '')
     : (event.circles ? event.circles + ' circle' + (event.circles > 1 ? 's' : '') + (event.corners ? ' with ' : '') : '')
       + (event.corners || !event.circles ? event.corners + ' false corners' : '');
-  return (event.object ? event.object + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
+  return (event.object_name ? event.object_name + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
 }
 
 function reasonBars(event) {
@@ -287,12 +287,12 @@ function reasonBars(event) {
 }
 
 function strip(event) {
-  const pictures = event.views.filter((view) => view.jpeg !== '');
+  const pictures = event.views.filter((view) => view.jpeg_base64 !== '');
   if (pictures.length === 0) {
     return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; the command above shows them with --report.') : null;
   }
   return el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
-    el('img', { src: 'data:image/jpeg;base64,' + view.jpeg, width: 256, height: 192,
+    el('img', { src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
     el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s'))));
 }
@@ -307,7 +307,7 @@ const FAMILIES = {
 function nameEvents(run) {
   const times = new Map();
   for (const event of run.events || []) {
-    const name = [event.kind, event.object, event.first].filter((part) => part !== '').join('-');
+    const name = [event.kind, event.object_name, event.first_frame].filter((part) => part !== '').join('-');
     times.set(name, (times.get(name) || 0) + 1);
     event.id = name + (times.get(name) > 1 ? '-' + times.get(name) : '');
   }

@@ -9,7 +9,6 @@
 #include <ranges>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -116,20 +115,6 @@ files::Json groups_of(const SuiteResult& suite, const DifferenceOf& differences)
 
 // ---- Runs
 
-files::Json criteria_of(const RunResult& run) {
-  files::Json criteria = files::Json::array();
-  for (const scoring::JudgedCriterion& criterion : run.criteria) {
-    criteria.push_back({{"metric", criterion.metric},
-                        {"min", files::number_or_null(criterion.min)},
-                        {"max", files::number_or_null(criterion.max)},
-                        {"value", files::number_or_null(criterion.value)},
-                        {"over", criterion.over},
-                        {"required", criterion.required},
-                        {"met", criterion.met}});
-  }
-  return criteria;
-}
-
 /// A cell's number with five digits, enough for the pixels of a plot; null for an empty cell.
 files::Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
@@ -172,8 +157,12 @@ files::Json frames_in(const fs::path& folder) {
   return columns;
 }
 
+/// As in events.json, with meanings.
 files::Json event_json(const scoring::ScoredEvent& event) {
-  files::Json reasons = files::Json::array();
+  files::Json json = scoring::json_of(event);
+  json["meaning"] = text_of(event.kind).meaning;
+  json["family"] = kFamilies[static_cast<std::size_t>(family_of(event.kind))];
+  files::Json& reasons = json["reasons"] = files::Json::array();
   const auto add_reasons = [&](const auto& of_corners) {
     for (const auto& [reason, corners] : of_corners) {
       const auto& [word, meaning] = text_of(reason);
@@ -182,24 +171,7 @@ files::Json event_json(const scoring::ScoredEvent& event) {
   };
   add_reasons(event.reasons);
   add_reasons(event.steps);
-  files::Json views = files::Json::array();
-  for (const scoring::EventView& view : event.views) {
-    views.push_back({{"frame", view.frame}, {"t_s", view.t_s}, {"jpeg", view.jpeg_base64}});
-  }
-  return {{"kind", text_of(event.kind).word},
-          {"meaning", text_of(event.kind).meaning},
-          {"first", event.first_frame},
-          {"last", event.last_frame},
-          {"object", event.object_name},
-          {"corners", event.corners},
-          {"of", event.counted_corners},
-          {"radial", event.radial_corners},
-          {"circles", event.circles},
-          {"family", kFamilies[static_cast<std::size_t>(family_of(event.kind))]},
-          {"frames", event.frames},
-          {"of_frames", event.of_frames},
-          {"reasons", reasons},
-          {"views", views}};
+  return json;
 }
 
 using Events = std::optional<std::vector<scoring::ScoredEvent>>;
@@ -247,7 +219,7 @@ files::Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                       {"outcome", suite::word_of(run.outcome)},
                       {"error", run.error},
                       {"command", run.command},
-                      {"criteria", criteria_of(run)},
+                      {"criteria", suite::criteria_json(run)},
                       {"warnings", recording::lines_of(run.warnings)},
                       {"folder", run.folder.generic_string()},
                       {"metrics", files::Json::object()},
@@ -297,13 +269,13 @@ void keep_to_budget(files::Json& scenarios, std::size_t budget) {
   for (const Strip& strip : strips) {
     std::size_t size = 0;
     for (const files::Json& view : (*strip.event)["views"]) {
-      size += view["jpeg"].get_ref<const std::string&>().size();
+      size += view["jpeg_base64"].get_ref<const std::string&>().size();
     }
     if (used + size <= budget) {
       used += size;
       continue;
     }
-    for (files::Json& view : (*strip.event)["views"]) view["jpeg"] = "";
+    for (files::Json& view : (*strip.event)["views"]) view["jpeg_base64"] = "";
     (*strip.event)["left_out"] = true;
   }
 }

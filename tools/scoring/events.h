@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -125,6 +126,9 @@ struct EventSums {
   void add(const EventSums& other);
 };
 EventSums sums_of(const std::vector<ScoredEvent>& events);
+
+/// As in events.json.
+nlohmann::ordered_json json_of(const ScoredEvent& event);
 
 /// \param sums over all events of the run; `events` may be only the worst. \throws OutputError
 void write_events(const std::filesystem::path& file, const std::vector<ScoredEvent>& events,

@@ -30,18 +30,6 @@ files::Json by_word(const Counts& counts) {
   return json;
 }
 
-files::Json json_of(const ScoredEvent& event) {
-  files::Json json = {{"kind", text_of(event.kind).word}, {"first_frame", event.first_frame},
-                      {"last_frame", event.last_frame},   {"object", event.object},
-                      {"object_name", event.object_name}, {"corners", event.corners},
-                      {"of", event.counted_corners},      {"radial", event.radial_corners},
-                      {"circles", event.circles},         {"frames", event.frames},
-                      {"of_frames", event.of_frames},     {"reasons", by_word(event.reasons)},
-                      {"steps", by_word(event.steps)},    {"views", files::Json::array()}};
-  for (const EventView& view : event.views) json["views"].push_back(json_of(view));
-  return json;
-}
-
 constexpr auto kLastReason = static_cast<Reason>(kReasons.size() - 1);
 
 /// \param last the last enumerator.
@@ -110,6 +98,18 @@ std::vector<ScoredEvent> events_in(const files::JsonNode& document) {
 }
 
 }  // namespace
+
+files::Json json_of(const ScoredEvent& event) {
+  files::Json json = {{"kind", text_of(event.kind).word}, {"first_frame", event.first_frame},
+                      {"last_frame", event.last_frame},   {"object", event.object},
+                      {"object_name", event.object_name}, {"corners", event.corners},
+                      {"of", event.counted_corners},      {"radial", event.radial_corners},
+                      {"circles", event.circles},         {"frames", event.frames},
+                      {"of_frames", event.of_frames},     {"reasons", by_word(event.reasons)},
+                      {"steps", by_word(event.steps)},    {"views", files::Json::array()}};
+  for (const EventView& view : event.views) json["views"].push_back(json_of(view));
+  return json;
+}
 
 void write_events(const std::filesystem::path& file, const std::vector<ScoredEvent>& events,
                   const EventSums& sums) {

@@ -19,24 +19,9 @@ constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 
 // ---- Writing
 
-files::Json to_json(const scoring::JudgedCriterion& criterion) {
-  return {{"metric", criterion.metric},
-          {"min", files::number_or_null(criterion.min)},
-          {"max", files::number_or_null(criterion.max)},
-          {"value", files::number_or_null(criterion.value)},
-          {"required", criterion.required},
-          {"met", criterion.met},
-          {"over", criterion.over},
-          {"place", criterion.place},
-          {"message", criterion.message}};
-}
-
 files::Json to_json(const RunResult& run) {
   files::Json metrics = files::Json::object();
   for (const auto& [name, figure] : run.metrics) metrics[name] = files::number_or_null(figure);
-  files::Json criteria = files::Json::array();
-  for (const scoring::JudgedCriterion& criterion : run.criteria)
-    criteria.push_back(to_json(criterion));
   files::Json warnings = files::Json::object();
   for (const recording::Warned& warned : run.warnings) {
     warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
@@ -47,7 +32,7 @@ files::Json to_json(const RunResult& run) {
           {"error", run.error},
           {"folder", run.folder.generic_string()},
           {"wall_s", files::number_or_null(run.wall_s)},
-          {"criteria", criteria},
+          {"criteria", criteria_json(run)},
           {"warnings", warnings},
           {"metrics", metrics}};
 }
@@ -201,6 +186,22 @@ SuiteResult suite_of(const Node& node) {
 
 const char* word_of(Outcome outcome) {
   return kOutcomes.at(static_cast<std::size_t>(outcome));
+}
+
+files::Json criteria_json(const RunResult& run) {
+  files::Json criteria = files::Json::array();
+  for (const scoring::JudgedCriterion& criterion : run.criteria) {
+    criteria.push_back({{"metric", criterion.metric},
+                        {"min", files::number_or_null(criterion.min)},
+                        {"max", files::number_or_null(criterion.max)},
+                        {"value", files::number_or_null(criterion.value)},
+                        {"required", criterion.required},
+                        {"met", criterion.met},
+                        {"over", criterion.over},
+                        {"place", criterion.place},
+                        {"message", criterion.message}});
+  }
+  return criteria;
 }
 
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {

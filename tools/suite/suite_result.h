@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -99,6 +100,9 @@ struct SuiteResult {
   std::optional<Sequential> sequential = {};
   std::vector<ScenarioResult> scenarios = {};
 };
+
+/// The criteria of a run, as in suite.json.
+nlohmann::ordered_json criteria_json(const RunResult& run);
 
 /// \throws files::OutputError
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
