@@ -73,6 +73,22 @@ void tell_size(const scenario::Scenario& scenario, const std::vector<std::string
                   folder.target().string(), megabytes(bytes), megabytes(free)));
 }
 
+/// The arguments of a child process that makes one sequence or a part of it.
+std::vector<std::string> sequence_command(const GenerateRequest& request,
+                                          const std::string& scenario, const std::string& out) {
+  GenerateRequest one;
+  one.paths = {scenario};
+  one.out = out;
+  one.formats = request.formats;
+  one.add = request.add;
+  one.frames = request.frames;
+  one.seed = request.seed;
+  one.sets = request.sets;
+  std::vector<std::string> words = arguments_of(one);
+  words.emplace_back("--quiet");
+  return words;
+}
+
 /// Makes the parts of one sequence in child processes, one part for each job.
 /// \throws std::runtime_error if a process fails.
 void share_frames(const GenerateRequest& request, sequence::SequenceFolder& folder,
@@ -195,21 +211,6 @@ PlannedSequences plan_sequences(const GenerateRequest& request, SequencesMade& m
 }
 
 }  // namespace
-
-std::vector<std::string> sequence_command(const GenerateRequest& request,
-                                          const std::string& scenario, const std::string& out) {
-  GenerateRequest one;
-  one.paths = {scenario};
-  one.out = out;
-  one.formats = request.formats;
-  one.add = request.add;
-  one.frames = request.frames;
-  one.seed = request.seed;
-  one.sets = request.sets;
-  std::vector<std::string> words = arguments_of(one);
-  words.emplace_back("--quiet");
-  return words;
-}
 
 Generated generate(const GenerateRequest& request, Caller& caller) {
   if (request.paths.size() != 1) {

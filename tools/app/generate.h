@@ -62,8 +62,4 @@ struct SequencesMade {
 /// of the shard are drawn. \throws as `generate`.
 SequencesMade generate_suite(const GenerateRequest& request, Caller& caller);
 
-/// The arguments of a child process that makes one sequence or a part of it.
-std::vector<std::string> sequence_command(const GenerateRequest& request,
-                                          const std::string& scenario, const std::string& out);
-
 }  // namespace lcs::app
