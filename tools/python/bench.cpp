@@ -278,10 +278,7 @@ auto dict_by(Made (*make)(const Request&, app::Caller&)) {
 
 void bind_suites(py::module_& module) {
   define(
-      module, {.takes_progress = true}, app::SuiteRequest{},
-      [](const app::SuiteRequest& request, PythonCaller& caller) {
-        return dict_of(carry_out([&] { return app::suite(request, caller); }), caller);
-      },
+      module, {.takes_progress = true}, app::SuiteRequest{}, dict_by(app::suite),
       R"(Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
 paths: scenario files and folders; worlds: in their place a split, train, validate or test, of
