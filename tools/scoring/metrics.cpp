@@ -241,11 +241,7 @@ std::vector<Metric> mover_metrics() {
          return j && f ? Figure((*j + *f) / 2) : std::nullopt;
        },
        kShare, "J&F", "mean of mover.region_j and mover.boundary_f", kInMeasures},
-      {"mover.pixel_iou",
-       [](auto& s) {
-         return ratio(static_cast<double>(s.movers.common_px),
-                      static_cast<double>(s.movers.all_px));
-       },
+      {"mover.pixel_iou", [](auto& s) { return ratio(s.movers.common_px, s.movers.all_px); },
        kShare, "", "IoU of the same pixels of all frames together"},
       {"mover.latency_ms_median", [](auto& s) { return median(s.movers.latencies_ms); },
        lower("ms", 20, 0), "box latency",
@@ -294,17 +290,12 @@ std::vector<Metric> label_metrics() {
 
 // ---- Findings, right or wrong
 
-/// \param count over all frames.
-Figure per_frame(const Scores& s, std::int64_t count) {
-  return ratio(static_cast<double>(count), s.frames);
-}
-
 std::vector<Metric> found_metrics() {
   return {
-      {"found.rebels_per_frame", [](auto& s) { return per_frame(s, s.rebels_found); },
+      {"found.rebels_per_frame", [](auto& s) { return ratio(s.rebels_found, s.frames); },
        neutral("per frame", 1), "rebels",
        "corners that the detector calls rebels, right or wrong. Mean over frames"},
-      {"found.movers_per_frame", [](auto& s) { return per_frame(s, s.movers_found); },
+      {"found.movers_per_frame", [](auto& s) { return ratio(s.movers_found, s.frames); },
        neutral("per frame", 2), "movers", "squares that move, right or wrong. Mean over frames"},
   };
 }
@@ -345,11 +336,7 @@ std::vector<Metric> other_metrics() {
        "corners of all frames so far. Mean over frames"},
       {"dimension.accumulative_final", [](auto& s) { return quantile(all_corners(s), 1); }, kCount,
        "full store", "corners of all frames"},
-      {"edges.rematched",
-       [](auto& s) {
-         return ratio(static_cast<double>(s.rematched_edges), static_cast<double>(s.edges));
-       },
-       kShare, "",
+      {"edges.rematched", [](auto& s) { return ratio(s.rematched_edges, s.edges); }, kShare, "",
        "share of the normal edges of a frame that have a corner in the next one. The others may "
        "lie inside psi then, or have left the image"},
       {"ego.rotation_error_mrad_median", [](auto& s) { return median(s.rotation_errors_mrad); },
@@ -388,7 +375,7 @@ Figure frames_per_second(const Scores& s) {
     seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
                        times.process_ms + times.truth_ms);
   }
-  return ratio(static_cast<double>(s.times.size()), seconds);
+  return ratio(s.times.size(), seconds);
 }
 
 /// Metrics of times. They are neutral, because times differ between machines and runs.

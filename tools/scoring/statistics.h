@@ -10,15 +10,14 @@
 
 namespace lcs::scoring {
 
-/// part / whole; undefined if whole is 0.
-inline std::optional<double> ratio(double part, double whole) {
+/// part / whole, of any numbers; undefined if whole is 0.
+std::optional<double> ratio(auto part, auto whole) {
   if (whole == 0) return std::nullopt;
-  return part / whole;
+  return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 inline std::optional<double> mean(const std::vector<double>& values) {
-  return ratio(std::accumulate(values.begin(), values.end(), 0.0),
-               static_cast<double>(values.size()));
+  return ratio(std::accumulate(values.begin(), values.end(), 0.0), values.size());
 }
 
 /// Linear interpolation between the nearest ranks (type 7, NumPy's default). \param q in [0, 1].
