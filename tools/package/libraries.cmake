@@ -15,9 +15,12 @@ file(MAKE_DIRECTORY ${folder})
 foreach(library IN LISTS libraries osmesa)
   cmake_path(GET library FILENAME name)
   file(REAL_PATH ${library} real)
-  file(COPY_FILE ${real} ${folder}/${name})
-  # The loader ignores the program's run path for a library that has its own.
-  file(RPATH_REMOVE FILE ${folder}/${name})
+  # auditwheel copies a wheel's libraries, but cannot know OSMesa.
+  if(NOT is_wheel OR library STREQUAL osmesa)
+    file(COPY_FILE ${real} ${folder}/${name})
+    # The loader ignores the program's run path for a library that has its own.
+    file(RPATH_REMOVE FILE ${folder}/${name})
+  endif()
   # Debian lists some files in /lib, which is a link to /usr/lib.
   string(REGEX REPLACE "^/usr/lib/" "/lib/" alias ${real})
   list(APPEND reals ${real} ${alias})
