@@ -286,15 +286,24 @@ function reasonBars(event) {
   }));
 }
 
-function strip(event) {
+/** The command that explains the corner at a click on a picture, for a shell in the folder of the page. */
+function explainAt(run, view, click) {
+  const [left, top, width, height] = view.shown;
+  const x = left + width * click.offsetX / click.target.clientWidth, y = top + height * click.offsetY / click.target.clientHeight;
+  return commandLine(`lcs explain ${data.is_run ? '.' : run.folder} ${view.frame} ${x.toFixed(1)} ${y.toFixed(1)}`);
+}
+
+function strip(event, run) {
+  const command = el('div');
   const pictures = event.views.filter((view) => view.jpeg_base64 !== '');
   if (pictures.length === 0) {
     return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; the command above shows them with --report.') : null;
   }
-  return el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
-    el('img', { src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
+  return el('div', null, el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
+    el('img', { title: 'A click on a corner gives the command that explains it',
+      onclick: (click) => command.replaceChildren(explainAt(run, view, click)), src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
-    el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s'))));
+    el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s')))), command);
 }
 
 const FAMILIES = {
@@ -329,7 +338,7 @@ function eventList(scenario, run) {
         note && el('p', { class: 'small quiet' }, note), ...events.map((event) => el('article', { class: 'event', id: anchor(scenario, run, event) },
           el('h5', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
             (event.is_new ? ' ' : '') + headline(event) + ' ', linkTo(anchor(scenario, run, event), '#', 'link to this event')),
-          strip(event), reasonBars(event))));
+          strip(event, run), reasonBars(event))));
     }), gone);
 }
 
