@@ -301,7 +301,7 @@ function strip(event, run) {
   }
   return el('div', null, el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
     el('img', { title: 'A click on a corner gives the command that explains it',
-      onclick: (click) => command.replaceChildren(explainAt(run, view, click)), src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
+      onclick: view.shown[2] > 0 ? (click) => command.replaceChildren(explainAt(run, view, click)) : null, src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
     el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s')))), command);
 }
