@@ -2,9 +2,9 @@
 """A detector to start from: Lucas-Kanade, and the distance to the epipolar line of the motion told.
 
     lcs run scenarios/crossing.yaml --detector lk \\
-        --detector-command 'python3 tools/comparators/example_detector.py'
+        --detector-command 'python3 tests/comparators/rivals/example_detector.py'
 
-Needs python3-opencv and python3-numpy. PROTOCOL.md beside this file says what comes in and goes out.
+Needs python3-opencv and python3-numpy. tools/comparators/PROTOCOL.md says what comes in and goes out.
 """
 import json
 import sys
