@@ -1,4 +1,5 @@
 // The commands of the program as Python functions.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -26,6 +27,11 @@
 #include "tools/suite/tables.h"
 
 namespace lcs::python {
+
+/// The texts of help/: arguments and results of the functions.
+extern const std::string_view kSuiteHelp, kCompareHelp, kWorldHelp, kRunHelp, kReplayHelp,
+    kGenerateHelp, kTuneHelp, kKinematicsHelp;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,11 +259,11 @@ py::dict dict_of(const app::KinematicsMade& made, PythonCaller& caller) {
 /// \param work gets the request and its caller. \return a dict.
 template <class Request, class Do>
 void define(py::module_& module, const Call& call, Request usual, const Do& work,
-            const std::string& about) {
+            std::string_view about) {
   py::options texts;
   texts.disable_function_signatures();
   const app::Options options = options_of(usual);
-  const std::string text = signature_of(call, options) + "\n\n" + about;
+  const std::string text = fmt::format("{}\n\n{}", signature_of(call, options), about);
   module.def(
       options.command.c_str(),
       [call, usual, work](const py::args& values, const py::kwargs& named) {
@@ -277,24 +283,7 @@ auto dict_by(Made (*make)(const Request&, app::Caller&)) {
 }
 
 void bind_suites(py::module_& module) {
-  define(
-      module, {.takes_progress = true}, app::SuiteRequest{}, dict_by(app::suite),
-      R"(Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
-
-paths: scenario files and folders; worlds: in their place a split, train, validate or test, of
-which count worlds, of one family where given; neither: the project's short scenarios.
-seeds: runs of each, 3, of worlds 1. jobs: at a time, as many as processors.
-detector, beside: names (detectors()). detector_command: starts a program of yours;
-detector_timeout: of its answers, s. set: as in Scenario. recorded: an earlier suite, for its frames.
-keep: figures, events or all. baseline: an earlier suite. progress: called with the numbers of
-finished and of all runs.
-
-Returns a dict: folder; outcome (passed, failed, error); runs: a dict each, with detector,
-scenario, seed, family, outcome, error, metrics (by name), criteria, folder, command; means: a
-dict for each detector, group and metric of the program's tables, with mean, half (of the 95 %
-interval, of worlds; None where unknown) and count; table: the text that the program prints; verdict;
-comparison with the baseline, as of compare; messages.
-Finished runs are kept if it raises or is interrupted, and the same call goes on from there.)");
+  define(module, {.takes_progress = true}, app::SuiteRequest{}, dict_by(app::suite), kSuiteHelp);
   define(module, {}, app::MergeRequest{}, dict_by(app::merge),
          "Joins the folders of the parts of a suite (shard). Returns as suite.");
   define(
@@ -305,25 +294,11 @@ Finished runs are kept if it raises or is interrupted, and the same call goes on
         caller.messages();
         return dict_of(comparison, verdict);
       },
-      R"(The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
-
-before, after: folders, or their suite.json. metric: a regular expression.
-markdown: a folder for a summary in Markdown, whose pictures will be at the address pictures_at.
-allow_missing: judge also if runs of before are missing in after.
-Returns a dict: verdict, a line; finding (regressed, not judged, no regression found, equal);
-regressed; means and scenarios: a dict for each figure, with group
-or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
-verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
-Raises Error for suites that cannot be read, or have nothing in common.)");
+      kCompareHelp);
 }
 
 void bind_worlds(py::module_& module) {
-  define(module, {.positional = 2}, app::WorldRequest{}, dict_by(app::world),
-         R"(Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
-
-out: folder; out/worlds/FAMILY_SEED if not given. pictures: folder of pictures for surfaces.
-Returns a dict: file (the scenario), objects, movers, drawn_again (times), features.
-Raises ValueError for an unknown family, naming the known ones.)");
+  define(module, {.positional = 2}, app::WorldRequest{}, dict_by(app::world), kWorldHelp);
   module.def(
       "worlds",
       [](const std::string& split, int count, const std::string& family, int jobs) {
@@ -338,10 +313,7 @@ chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.)");
 
 void bind_runs(py::module_& module) {
   define(module, {.takes_progress = true}, app::RunRequest{.video = false}, dict_by(app::run),
-         R"(Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
-
-beside: "DETECTOR=FOLDER" each. The other arguments are as in suite.
-Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.)");
+         kRunHelp);
   module.def(
       "_score_files",
       [](const fs::path& folder, const fs::path& detections) {
@@ -353,14 +325,8 @@ Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, 
         return dict_of(scored.metrics);
       },
       "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
-  define(
-      module, {.takes_progress = true}, app::ReplayRequest{.run = {.video = false}},
-      dict_by(app::replay),
-      R"(Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
-
-path: a folder, video or ROS bag. recording: keys of a scenario's recording, as {"focal": 600,
-"topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
-pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.)");
+  define(module, {.takes_progress = true}, app::ReplayRequest{.run = {.video = false}},
+         dict_by(app::replay), kReplayHelp);
   define(
       module, {.takes_progress = true}, app::GenerateRequest{},
       [](const app::GenerateRequest& request, PythonCaller& caller) {
@@ -375,30 +341,13 @@ pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, 
                         "frames"_a = std::pair(made.range.first, made.range.last),
                         "notes"_a = made.notes, "messages"_a = caller.messages());
       },
-      R"(Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
-
-paths: the scenario's file; with suite=True files and folders. worlds: in its place a split of
-worlds, as in suite. formats: names; if not given, all but kitti and mcap. add: adds them to
-the finished sequence in out. frames: only the first so many.
-Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
-same call goes on after it was interrupted.)");
+      kGenerateHelp);
 }
 
 void bind_studies(py::module_& module) {
-  define(module, {.takes_progress = true}, app::TuneRequest{}, dict_by(app::tune),
-         R"(Learns the filter's parameters from suites of the split train, as lcs tune.
-
-suites, validate: folders. keys: of the parameters; all learnt ones if not given.
-Returns a dict: folder; before, after: values by key; stated: for each kind of suites a dict of suite
-and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
-The same call goes on after it was interrupted.)");
-  define(
-      module, {.takes_progress = true}, app::KinematicsRequest{}, dict_by(app::kinematics),
-      R"(Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
-
-config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.
-Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
-NaN without theory) and verdict; text: as the program prints it.)");
+  define(module, {.takes_progress = true}, app::TuneRequest{}, dict_by(app::tune), kTuneHelp);
+  define(module, {.takes_progress = true}, app::KinematicsRequest{}, dict_by(app::kinematics),
+         kKinematicsHelp);
 }
 
 }  // namespace
