@@ -312,6 +312,63 @@ class Recorded(unittest.TestCase):
             self.assertIsNone(metrics["truth.boxes"])
 
 
+class Lives(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        scenario = Path(folder.name) / "small.yaml"
+        scenario.write_text(TEXT)
+        cls.settings = lcs.generate(scenario, frames=1, formats=["euroc"], out=folder.name + "/out")["folders"][0]
+        cls.settings /= "lcs.json"
+
+    def test_frames_are_numbered_and_begin_at_0(self):
+        live, picture = lcs.Live(self.settings), np.zeros((240, 320, 3), np.uint8)
+        frames = [live.frame(t, picture) for t in (5 * 10**9, 6 * 10**9)]
+        self.assertEqual([(frame.index, frame.time_ns) for frame in frames], [(0, 0), (1, 10**9)])
+        self.assertEqual(len(frames[1].imu), 0)
+        with self.assertRaises(ValueError):
+            frames[0].truth.depth
+
+    def test_a_reading_of_each_sensor_makes_a_picture_due(self):
+        live = lcs.Live(self.settings)
+        live.add_imu(10**9, [0, 0, 0], [0, 0, 9.81])
+        self.assertFalse(live.is_due(10**9))
+        live.add_odometry(10**9, [0.5, 0, 0], 0.1)
+        self.assertTrue(live.is_due(10**9))
+        self.assertFalse(live.is_due(10**9 + 1))
+
+    def test_refuses_what_goes_back_and_pictures_of_another_camera(self):
+        live, picture = lcs.Live(self.settings), np.zeros((240, 320, 3), np.uint8)
+        live.frame(10**9, picture)
+        live.add_imu(10**9, [0, 0, 0], [0, 0, 9.81])
+        live.add_odometry(10**9, [0, 0, 0])
+        for again in (
+            lambda: live.frame(10**9, picture),
+            lambda: live.add_imu(10**9, [0, 0, 0], [0, 0, 9.81]),
+            lambda: live.add_odometry(10**9 - 1, [0, 0, 0]),
+        ):
+            with self.assertRaisesRegex(ValueError, "the time goes back from 1000000000 to .* ns; begin anew"):
+                again()
+        with self.assertRaisesRegex(ValueError, "no time|one since 1970"):
+            live.frame(2**62, picture)
+        with self.assertRaisesRegex(ValueError, "the picture has 160 x 240 pixels, and the settings say 320 x 240"):
+            live.frame(2 * 10**9, picture[:, :160])
+        with self.assertRaisesRegex(ValueError, "height x width x 3"):
+            live.frame(2 * 10**9, picture[..., 0])
+        with self.assertRaisesRegex(TypeError, "height x width x 3"):
+            live.frame(2 * 10**9, picture.astype(float))
+        self.assertEqual(live.frame(2 * 10**9, picture).index, 1)
+
+    def test_refuses_settings_that_are_none(self):
+        with self.assertRaisesRegex(lcs.Error, "nothing.json"):
+            lcs.Live("nothing.json")
+        told = self.settings.with_name("truth.json")
+        told.write_text(self.settings.read_text().replace('"ego_motion": "imu"', '"ego_motion": "truth"'))
+        with self.assertRaisesRegex(lcs.Error, "ego_motion is truth, which a robot does not have; make it imu"):
+            lcs.Live(told)
+
+
 class Motions(unittest.TestCase):
     def test_says_whether_it_is_of_use(self):
         self.assertTrue(lcs.Motion(dt=0.1, velocity=[0, 0, 1]).usable)
@@ -707,7 +764,10 @@ for name, make in ways.items():
         frame = next(simulation)
         lcs_filter = lcs.Filter(scenario)
         result = lcs_filter.step(frame.corners, frame.motion)
-        objects = [scenario, scenario.camera, simulation, frame, frame.motion, frame.truth, lcs_filter,
+        with tempfile.TemporaryDirectory() as folder:
+            lcs.generate(CROSSING, frames=1, formats=["euroc"], out=folder + "/drive")
+            live = lcs.Live(folder + "/drive/lcs.json")
+        objects = [scenario, scenario.camera, simulation, frame, frame.motion, frame.truth, lcs_filter, live,
                    result, lcs.Detections(), lcs.Scorer(), lcs.Detector(scenario, "klt")]  # fmt: skip
         self.assertEqual({type(x) for x in objects}, set(self.CLASSES))
         for x in objects:

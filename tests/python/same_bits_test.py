@@ -207,6 +207,38 @@ class SameBits(unittest.TestCase):
         self.assertIsNotNone(metrics["mover.region_j"])
         self.assertGreater(metrics["square.mean_iou"], 0.9)
 
+    def test_of_pictures_and_readings_one_by_one(self):
+        """As of a robot whose camera has a clock of its own; readings may come earlier than needed."""
+        sequence, out = (Path(self.folder.name) / name for name in ("drive", "live"))
+        sets = [f"--set={each}" for each in ("camera.time_offset=4 ms", "frames=15", "camera.rate=30 Hz")]
+        self.program("generate", lcs.SCENARIOS / "crossing.yaml", *sets, "--formats", "euroc", "--quiet", "--out",
+                     sequence)
+        self.program("replay", sequence, "--no-video", "--quiet", "--out", out)
+        layers = lines_of(out / "layers.jsonl")
+        with open(sequence / "mav0/imu0/data.csv", newline="") as file:
+            imu = [(int(t), [float(x) for x in row]) for t, *row in list(csv.reader(file))[1:]]
+        with open(sequence / "mav0/odometry0/data.csv", newline="") as file:
+            wheels = [(int(t), [float(x) for x in row]) for t, *row in list(csv.reader(file))[1:]]
+        with open(sequence / "mav0/cam0/data.csv", newline="") as file:
+            times = [int(row[0]) for row in list(csv.reader(file))[1:]]
+        live = lcs.Live(sequence / "lcs.json")
+        lcs_filter = lcs.Filter(live.scenario)
+        recording = lcs.Scenario.from_yaml(f"recording: {{path: {sequence}}}")
+        seen, ahead_ns = 0, 30_000_000
+        for t, stored in zip(times, lcs.simulate(recording)):
+            while imu and imu[0][0] <= t + ahead_ns:
+                t_imu, row = imu.pop(0)
+                live.add_imu(t_imu, row[:3], row[3:])
+            while wheels and wheels[0][0] <= t + ahead_ns:
+                t_wheels, row = wheels.pop(0)
+                live.add_odometry(t_wheels, row[:3], row[3])
+            frame = live.frame(t, stored.picture)
+            result = lcs_filter.step(frame.corners, frame.motion, frame.signatures, picture=frame.grey)
+            self.assert_layers(frame, result, layers[frame.index])
+            seen += 1
+        self.assertEqual(seen, 15)
+        self.assertEqual(live.diagnostics, [])
+
     def test_of_two_that_take_turns(self):
         """Worlds that are open at once do not disturb each other."""
         scenarios = [

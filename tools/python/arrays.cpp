@@ -22,6 +22,18 @@ void require_bytes(const py::array& array, const char* name, const char* expecte
   throw py::type_error(fmt::format("{} is of {}; give {}", name, text_of(array.dtype()), expected));
 }
 
+cv::Mat picture_of(py::handle value, int channels, const char* expected) {
+  const py::array array = array_of(value, "picture", expected, "u");
+  require_bytes(array, "picture", expected);
+  const bool fits = channels == 1 ? array.ndim() == 2 : array.ndim() == 3 && array.shape(2) == 3;
+  if (!fits) refuse_shape(array, "picture", expected);
+  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> pixels(array);
+  cv::Mat copy(static_cast<int>(pixels.shape(0)), static_cast<int>(pixels.shape(1)),
+               CV_8UC(channels));
+  std::memcpy(copy.data, pixels.data(), static_cast<std::size_t>(pixels.nbytes()));
+  return copy;
+}
+
 }  // namespace
 
 py::array array_of(py::handle value, const char* name, const char* expected, const char* kinds) {
@@ -75,14 +87,11 @@ std::vector<Signature> signatures_of(py::handle value) {
 }
 
 cv::Mat1b grey_of(py::handle value) {
-  constexpr const char* kExpected = "height x width of uint8";
-  const py::array array = array_of(value, "picture", kExpected, "u");
-  require_bytes(array, "picture", kExpected);
-  if (array.ndim() != 2) refuse_shape(array, "picture", kExpected);
-  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> grey(array);
-  cv::Mat1b copy(static_cast<int>(grey.shape(0)), static_cast<int>(grey.shape(1)));
-  std::memcpy(copy.data, grey.data(), static_cast<std::size_t>(grey.nbytes()));
-  return copy;
+  return picture_of(value, 1, "height x width of uint8");
+}
+
+cv::Mat3b bgr_of(py::handle value) {
+  return picture_of(value, 3, "height x width x 3 of uint8: blue, green, red");
 }
 
 std::vector<bool> flags_of(py::handle value, const char* name) {

@@ -162,8 +162,9 @@ std::vector<Eigen::Vector2f> points_of(py::handle value, const char* name);
 /// N x 32 of uint8. \throws as `table_of`.
 std::vector<Signature> signatures_of(py::handle value);
 
-/// Height x width of uint8, a copy. \throws as `table_of`.
+/// Height x width, or height x width x 3, of uint8, a copy. \throws as `table_of`.
 cv::Mat1b grey_of(py::handle value);
+cv::Mat3b bgr_of(py::handle value);
 
 /// N of bool. \throws as `table_of`.
 std::vector<bool> flags_of(py::handle value, const char* name);

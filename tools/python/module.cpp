@@ -72,6 +72,7 @@ PYBIND11_MODULE(_core, module) {
   python::bind_scenario(module);
   python::bind_frame(module);
   python::bind_filter(module);
+  python::bind_live(module);
   python::bind_scorer(module);
   python::bind_detector(module);
   python::bind_bench(module);

@@ -35,6 +35,7 @@ void bind_bench(py::module_& module);
 void bind_detector(py::module_& module);
 void bind_filter(py::module_& module);
 void bind_frame(py::module_& module);
+void bind_live(py::module_& module);
 void bind_scenario(py::module_& module);
 void bind_scorer(py::module_& module);
 ///@}

@@ -64,8 +64,7 @@ Playback::Playback(const scenario::Scenario& asked)
       truth_(asked.recording->nothing_moves ? recording::Truth::nothing_moves
              : recorded_.truth              ? recording::Truth::all
                                             : recording::Truth::unknown) {
-  constexpr double kPeriods = 4;
-  longest_s_ = kPeriods / usual_rate_hz(stamps_of(recorded_.frames)).value_or(1);
+  longest_s_ = kMostPeriods / usual_rate_hz(stamps_of(recorded_.frames)).value_or(1);
   take_settings();
   look_at_first_picture();
   require_events();

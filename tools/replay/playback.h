@@ -19,6 +19,9 @@ namespace lcs::replay {
 
 class Playback : public bench::FrameSource {
  public:
+  /// Of the camera, between frames of which the filter knows corners again.
+  static constexpr double kMostPeriods = 4;
+
   /// Reads everything except the pictures, of which it decodes only the first one.
   /// \throws input::Error for unreadable or missing input, std::runtime_error.
   explicit Playback(const scenario::Scenario& asked);
