@@ -317,10 +317,9 @@ class Lives(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        scenario = Path(folder.name) / "small.yaml"
-        scenario.write_text(TEXT)
-        cls.settings = lcs.generate(scenario, frames=1, formats=["euroc"], out=folder.name + "/out")["folders"][0]
-        cls.settings /= "lcs.json"
+        size = {"camera.size": "[320, 240]"}
+        lcs.generate(CROSSING, set=size, frames=1, formats=["euroc"], out=folder.name + "/drive")
+        cls.settings = Path(folder.name) / "drive/lcs.json"
 
     def test_frames_are_numbered_and_begin_at_0(self):
         live, picture = lcs.Live(self.settings), np.zeros((240, 320, 3), np.uint8)

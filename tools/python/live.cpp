@@ -52,7 +52,7 @@ class Live : bench::FrameSource {
     add(odometry_, {t_ns, matrix_of<3, 1>(velocity, "velocity", "3 numbers, m/s"), yaw_rate});
   }
 
-  bool is_due(std::int64_t t_ns) const {
+  bool is_due(std::int64_t t_ns) {
     const auto has_come = [&](const auto& sensor) {
       return sensor.last_ns && *sensor.last_ns - offset_ns_ >= t_ns;
     };
@@ -170,6 +170,10 @@ class Live : bench::FrameSource {
 }  // namespace
 
 void bind_live(py::module_& module) {
+  // Functions of a reference: a method would take None for a null pointer.
+  const auto on_live = []<class Return, class... Arguments>(Return (Live::*call)(Arguments...)) {
+    return [call](Live& live, Arguments... arguments) { return (live.*call)(arguments...); };
+  };
   class_of<Live>(
       module, "Live",
       R"(Frames from outside, as of a robot: the corners, signatures and motions that a replay of its
@@ -179,22 +183,23 @@ recording has. Times are ns of one clock, and increase for each sensor.)")
           R"(settings: lcs.json of a generated sequence, with camera, sensors, and the state at the first
 frame. Raises Error with file, key and remedy.)")
       .def(
-          "add_imu", &Live::add_imu, py::arg("time_ns"), py::arg("gyro"), py::arg("accel"),
+          "add_imu", on_live(&Live::add_imu), py::arg("time_ns"), py::arg("gyro"), py::arg("accel"),
           R"(A reading, 3 numbers each, rad/s and m/s^2, in the IMU's frame. Raises ValueError if the time
 goes back.)")
-      .def("add_odometry", &Live::add_odometry, py::arg("time_ns"), py::arg("velocity"),
+      .def("add_odometry", on_live(&Live::add_odometry), py::arg("time_ns"), py::arg("velocity"),
            py::arg("yaw_rate") = py::none(),
            "A reading of the wheels, as in Frame.odometry; likewise.")
       .def(
-          "is_due", &Live::is_due, py::arg("time_ns"),
+          "is_due", on_live(&Live::is_due), py::arg("time_ns"),
           R"(Whether each sensor of the settings has had a reading at this time or later, so that no earlier
 one will come.)")
-      .def("frame", &Live::frame, py::arg("time_ns"), py::arg("picture"),
+      .def("frame", on_live(&Live::frame), py::arg("time_ns"), py::arg("picture"),
            R"(The next Frame, by the readings up to its time that were added; later ones wait.
 
 picture: H x W x 3 uint8, blue, green, red, as the camera gave it. Raises ValueError for another size
 and if the time goes back, and then ignores the picture.)")
-      .def_property_readonly("scenario", &Live::scenario, "For Filter and Detector.")
+      .def_property_readonly(
+          "scenario", [](const Live& live) { return live.scenario(); }, "For Filter and Detector.")
       .def_property_readonly(
           "diagnostics", [](const Live& live) { return live.diagnostics().lines(); },
           "Problems of the readings so far, a line for each kind.");
