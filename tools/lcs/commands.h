@@ -26,9 +26,6 @@ extern const std::string_view kProgramHelp, kRunHelp, kPreviewHelp, kReplayHelp,
     kSuiteHelp, kMergeHelp, kGenerateHelp, kCompareHelp, kExplainHelp, kKinematicsHelp, kWorldHelp,
     kTuneHelp;
 
-/// Prints the figures and the missed criteria of a run.
-ExitCode show_run(const app::RunMade& made, bool quiet, scoring::Format format);
-
 /// kRegressed, kError if nothing is judged, else kFine.
 ExitCode exit_code_of(suite::Finding finding);
 

@@ -1,11 +1,12 @@
 /// \file
-/// The commands that call one function of tools/app and print one text: `lcs kinematics`, `lcs
-/// score`, `lcs tune` and `lcs world`.
+/// The commands that call one function of tools/app and print one text: `lcs generate`, `lcs
+/// kinematics`, `lcs score`, `lcs tune` and `lcs world`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "scenarios/input/message.h"
 #include "scenes/worlds/worlds.h"
+#include "tools/app/generate.h"
 #include "tools/app/kinematics.h"
 #include "tools/app/score.h"
 #include "tools/app/tune.h"
@@ -32,9 +33,7 @@ std::string kinematics(const app::KinematicsRequest& request, app::Caller& calle
   return fmt::format("{}\nresults in {}\n", made.text, made.folder.string());
 }
 
-struct ScoreOptions {
-  app::ScoreRequest request;
-  bool quiet = false;
+struct ScoreOptions : Quietable<app::ScoreRequest> {
   scoring::Format format = {};
 };
 
@@ -58,8 +57,7 @@ ExitCode score(const ScoreOptions& options) {
 }
 
 app::Options options_of(ScoreOptions& options) {
-  app::Options all = app::options_of(options.request);
-  all.add_quiet(options.quiet);
+  app::Options all = options_of<app::ScoreRequest>(options);
   add_format(all, options.format);
   return all;
 }
@@ -75,6 +73,38 @@ std::string world(const app::WorldRequest& request, app::Caller& caller) {
       "{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
       worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(), drawn.attempt,
       fmt::join(drawn.features, ", "), folder.string());
+}
+
+using GenerateFlags = Quietable<app::GenerateRequest>;
+
+ExitCode generate(const GenerateFlags& options) {
+  Terminal terminal(options.quiet);
+  if (options.request.is_of_many()) {
+    return app::generate_suite(options.request, terminal).errors.empty() ? kFine : kError;
+  }
+  app::GenerateRequest request = options.request;
+  if (request.paths.size() == 1) {  // other numbers are refused
+    request.paths.front() = scenario_file(request.paths.front()).string();
+  }
+  const app::Generated made = app::generate(request, terminal);
+  if (options.quiet) return kFine;
+  switch (made.state) {
+    case app::Generated::State::complete_before:
+      print_out("{} is complete, and every file is as its manifest says\n", made.folder.string());
+      break;
+    case app::Generated::State::part:
+      print_out(
+          "{}: frames {} to {} are whole; when all parts are, the same command without "
+          "--shard puts the sequence together\n",
+          made.scenario.name, made.range.first, made.range.last - 1);
+      break;
+    case app::Generated::State::whole:
+      print_out("{}: {} frames, seed {}\n", made.scenario.name, made.scenario.frames,
+                made.scenario.seed);
+      for (const std::string& note : made.notes) print_out("  {}\n", note);
+      print_out("  files    {}\n", made.folder.string());
+  }
+  return kFine;
 }
 
 }  // namespace
@@ -97,6 +127,11 @@ Command tune_command() {
 Command world_command() {
   return command_of("Draw a scenario and its scene from a seed, and write them", kWorldHelp,
                     &print<app::WorldRequest, world>);
+}
+
+Command generate_command() {
+  return command_of("Simulate a scenario and write it as a sequence that other tools read",
+                    kGenerateHelp, &generate);
 }
 
 }  // namespace lcs::tools

@@ -1,5 +1,6 @@
 /// \file
-/// `lcs run`: simulates a scenario, runs a detector on its frames, scores it and reports.
+/// `lcs run`: simulates a scenario, runs a detector on its frames, scores it and reports. `lcs
+/// replay`: the same on a recording that options describe instead of a scenario file.
 #include "scenarios/keys.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "tools/app/replay.h"
 #include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/view.h"
@@ -48,6 +50,24 @@ bool report_missed(const std::vector<scoring::JudgedCriterion>& criteria) {
   return failed;
 }
 
+/// Prints the figures and the missed criteria of a run.
+ExitCode show_run(const app::RunMade& made, bool quiet, scoring::Format format) {
+  if (format != scoring::Format::text && !quiet) {
+    std::vector<std::pair<std::string, scoring::Metrics>> detectors;
+    for (const app::DetectorMade& one : made.detectors) {
+      detectors.emplace_back(one.name, one.metrics);
+    }
+    print_out("{}", table_text(output::figure_table(detectors), format));
+  } else if (!quiet) {
+    for (const app::DetectorMade& one : made.detectors) {
+      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
+    }
+  }
+  bool failed = false;
+  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
+  return failed ? kCriterionFailed : kFine;
+}
+
 ExitCode run(const RunOptions& options) {
   Terminal terminal(options.quiet);
   app::RunRequest request = options.request;
@@ -78,30 +98,43 @@ app::Options options_of(RunOptions& options) {
   return all;
 }
 
-}  // namespace
+struct ReplayOptions {
+  app::ReplayRequest request;
+  std::string write;  ///< scenario file to write instead of running; "": run
+  bool force = false;
+  bool quiet = false;
+};
 
-ExitCode show_run(const app::RunMade& made, bool quiet, scoring::Format format) {
-  if (format != scoring::Format::text && !quiet) {
-    std::vector<std::pair<std::string, scoring::Metrics>> detectors;
-    for (const app::DetectorMade& one : made.detectors) {
-      detectors.emplace_back(one.name, one.metrics);
-    }
-    print_out("{}", table_text(output::figure_table(detectors), format));
-  } else if (!quiet) {
-    for (const app::DetectorMade& one : made.detectors) {
-      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
-    }
+ExitCode replay(const ReplayOptions& options) {
+  if (!options.write.empty()) {
+    app::write_scenario(options.request, options.write, files::overwrite(options.force));
+    return kFine;
   }
-  bool failed = false;
-  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
-  return failed ? kCriterionFailed : kFine;
+  Terminal terminal(options.quiet);
+  return show_run(app::replay(options.request, terminal), options.quiet, scoring::Format::text);
 }
+
+app::Options options_of(ReplayOptions& options) {
+  app::Options all = app::options_of(options.request);
+  all.add("--write", "FILE", &options.write,
+          "Write the scenario that the options make to this file, and run nothing",
+          {.is_output = true});
+  all.add_force(options.force);
+  all.add_quiet(options.quiet);
+  return all;
+}
+
+}  // namespace
 
 Command run_command() {
   return command_of(
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
       "score it by the truth",
       kRunHelp, &run);
+}
+
+Command replay_command() {
+  return command_of("Run the LCS filter (or a comparator) on a recording", kReplayHelp, &replay);
 }
 
 }  // namespace lcs::tools

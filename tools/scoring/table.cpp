@@ -185,12 +185,10 @@ Format format_of(std::string_view word) {
 std::string table_text(const FigureTable& table, Format format) {
   if (format == Format::text) return aligned(table);
   struct Line {
-    std::string before, between, after;
+    std::string_view before, between, after;
   };
-  constexpr std::size_t kFormatsBesideText = kFormats.size() - 1;
-  static const std::array<Line, kFormatsBesideText> lines{
-      {{"| ", " | ", " |\n"}, {"", ",", "\n"}, {"", " & ", " \\\\\n"}}};
-  const Line& line = lines.at(static_cast<std::size_t>(format) - 1);
+  constexpr Line kMarkdown{"| ", " | ", " |\n"}, kCsv{"", ",", "\n"}, kLatex{"", " & ", " \\\\\n"};
+  const Line& line = format == Format::markdown ? kMarkdown : format == Format::csv ? kCsv : kLatex;
   std::vector<bool> with_half(table.columns.size());
   std::vector<Cell> keys, headings;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {

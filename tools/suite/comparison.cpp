@@ -276,12 +276,6 @@ std::string signed_number(double value) {
   return fmt::format("{:+.{}f}", value, decimals_of(value));
 }
 
-std::string interval_text(const Interval& change) {
-  if (!change.half) return "noise unknown";
-  return fmt::format("[{}, {}]", signed_number(change.mean - *change.half),
-                     signed_number(change.mean + *change.half));
-}
-
 /// A row each.
 /// \param of_groups adds the number of scenarios to each name.
 std::string table_of(const std::vector<const Difference*>& differences, bool of_groups,
@@ -545,7 +539,9 @@ std::string text_of(const Comparison& comparison, bool all, scoring::Format form
 
 std::string change_text(const Difference& difference) {
   std::string text = fmt::format("{} -> {}", number(difference.before), number(difference.after));
-  if (difference.change.half) text += fmt::format(" {}", interval_text(difference.change));
+  const auto& [mean, half, error, degrees_of_freedom] = difference.change;
+  if (half)
+    text += fmt::format(" [{}, {}]", signed_number(mean - *half), signed_number(mean + *half));
   return text;
 }
 

@@ -57,10 +57,6 @@ void add(std::vector<Repeated>& messages, const std::string& key, const std::str
   }
 }
 
-std::string group_row_name(const SuiteResult& suite, const std::string& group) {
-  return "= " + counted_group(suite, group);
-}
-
 constexpr std::string_view kTime = "time.filter_ms_median";
 constexpr std::array<std::string_view, 2> kFalse{"rebel.false_corners_per_frame",
                                                  "rebel.false_objects_per_100_frames"};
@@ -192,11 +188,12 @@ std::string suite_table(const SuiteResult& suite, bool worst_first, Format forma
         });
   }
   for (const std::string& group : groups) {
-    add(group_row_name(suite, group), "", [&](std::string_view key, int decimals) -> scoring::Cell {
-      const std::vector<double> figures = figures_of_group(suite, group, key);
-      if (figures.empty()) return {};
-      return cell_of(interval_of(figures), of_worlds, decimals);
-    });
+    add("= " + counted_group(suite, group), "",
+        [&](std::string_view key, int decimals) -> scoring::Cell {
+          const std::vector<double> figures = figures_of_group(suite, group, key);
+          if (figures.empty()) return {};
+          return cell_of(interval_of(figures), of_worlds, decimals);
+        });
   }
   std::string text = table_text(table, format);
   if (!is_text) return text;
