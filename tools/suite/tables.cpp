@@ -7,7 +7,6 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
