@@ -11,9 +11,9 @@ namespace lcs::scoring {
 namespace {
 
 const FigureTable kTable{{{"scenario", "scenario"}, {"f1", "F1"}, {"wrong", "wrong (per frame)"}},
-                         {{"near", Figure{0.5, 0.0625}, Figure{1234.5, {}, 1}},
-                          {"far, \"very\"", Figure{-0.25, {}, 2, true}, {}},
-                          {"a|b_1 & 5 %", {}, Figure{2, 1.25, 1}}}};
+                         {{"near", TableFigure{0.5, 0.0625}, TableFigure{1234.5, {}, 1}},
+                          {"far, \"very\"", TableFigure{-0.25, {}, 2, true}, {}},
+                          {"a|b_1 & 5 %", {}, TableFigure{2, 1.25, 1}}}};
 
 TEST(FigureTables, AsTextAlignNumbersBelowTheirHeadings) {
   EXPECT_EQ(table_text(kTable, Format::text),
@@ -27,7 +27,7 @@ TEST(FigureTables, AsTextKeepTo120ColumnsByGivingALongNameALineOfItsOwn) {
   FigureTable wide{{{"name", "name"}}, {{std::string(100, 'n')}}};
   for (int i = 0; i < 12; ++i) {
     wide.columns.push_back({"k", "k"});
-    wide.rows[0].emplace_back(Figure{0.5, 0.25});
+    wide.rows[0].emplace_back(TableFigure{0.5, 0.25});
   }
   std::istringstream lines(table_text(wide, Format::text));
   int count = 0;

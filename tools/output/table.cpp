@@ -112,9 +112,10 @@ scoring::FigureTable figure_table(
     std::vector<scoring::Cell> row{metric.key, std::string(metric.scale.unit)};
     bool is_there = false;
     for (const auto& [name, metrics] : detectors) {
-      const std::optional<double> value = scoring::value(metrics, metric.key);
+      const auto value = scoring::value(metrics, metric.key);
       is_there |= value.has_value();
-      row.push_back(value ? scoring::Figure{*value, {}, metric.scale.decimals} : scoring::Cell());
+      scoring::Cell& cell = row.emplace_back();
+      if (value) cell = scoring::TableFigure{*value, {}, metric.scale.decimals};
     }
     if (is_there) table.rows.push_back(std::move(row));
   }

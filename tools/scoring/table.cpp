@@ -15,13 +15,13 @@ constexpr std::array<std::string_view, 4> kFormats{"text", "markdown", "csv", "l
 
 constexpr std::string_view kSign = "±";
 
-std::string number_of(const Figure& figure) {
+std::string number_of(const TableFigure& figure) {
   return figure.is_signed ? fmt::format("{:+.{}f}", figure.mean, figure.decimals)
                           : fmt::format("{:.{}f}", figure.mean, figure.decimals);
 }
 
 /// Such as "±.05"; empty if the half rounds to zero.
-std::string half_of(const Figure& figure) {
+std::string half_of(const TableFigure& figure) {
   constexpr std::size_t kMostDigits = 3;
   std::string digits = fmt::format("{:.{}f}", figure.half.value_or(0), figure.decimals);
   if (digits.find_first_not_of("0.") == std::string::npos) return "";
@@ -70,7 +70,7 @@ std::vector<std::string> fields_of(const std::vector<Cell>& row, const std::vect
                                    Format format) {
   std::vector<std::string> fields;
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const Figure* figure = std::get_if<Figure>(&row[c]);
+    const TableFigure* figure = std::get_if<TableFigure>(&row[c]);
     const auto* words = std::get_if<std::string>(&row[c]);
     if (words != nullptr) {
       fields.push_back(words_in(*words, format));
@@ -121,7 +121,7 @@ std::vector<Width> widths_of(const FigureTable& table) {
   for (const std::vector<Cell>& row : table.rows) {
     for (std::size_t c = 0; c < row.size(); ++c) {
       Width& width = widths[c];
-      if (const auto* figure = std::get_if<Figure>(&row[c])) {
+      if (const auto* figure = std::get_if<TableFigure>(&row[c])) {
         width.number = std::max(width.number, width_of(number_of(*figure)));
         width.half = std::max(width.half, width_of(half_of(*figure)));
       } else if (const auto* words = std::get_if<std::string>(&row[c])) {
@@ -161,7 +161,7 @@ std::string aligned(const FigureTable& table) {
     add_line(std::get<std::string>(row.front()), [&](std::size_t c) {
       const Width& width = widths[c];
       const std::size_t numbers = width.cell() - width.half;
-      const auto* figure = c < row.size() ? std::get_if<Figure>(&row[c]) : nullptr;
+      const auto* figure = c < row.size() ? std::get_if<TableFigure>(&row[c]) : nullptr;
       const auto* words = c < row.size() ? std::get_if<std::string>(&row[c]) : nullptr;
       if (words != nullptr) return padded(*words, width.cell());
       const std::string number = figure ? number_of(*figure) : "-";
@@ -193,7 +193,7 @@ std::string table_text(const FigureTable& table, Format format) {
   std::vector<Cell> keys, headings;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     with_half[c] = std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) {
-      const auto* figure = std::get_if<Figure>(&row[c]);
+      const auto* figure = std::get_if<TableFigure>(&row[c]);
       return figure != nullptr && figure->half.has_value();
     });
     const auto& [key, heading] = table.columns[c];

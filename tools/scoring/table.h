@@ -10,7 +10,7 @@
 
 namespace lcs::scoring {
 
-struct Figure {
+struct TableFigure {
   double mean = 0;
   std::optional<double> half = {};  ///< half width of an interval or a range
   int decimals = 2;                 ///< of both; CSV has all digits
@@ -18,7 +18,7 @@ struct Figure {
 };
 
 /// An undefined figure, words, or a figure.
-using Cell = std::variant<std::monostate, std::string, Figure>;
+using Cell = std::variant<std::monostate, std::string, TableFigure>;
 
 struct TableColumn {
   std::string key;      ///< its name in CSV

@@ -290,13 +290,13 @@ std::string table_of(const std::vector<const Difference*>& differences, bool of_
                               {"verdict", "verdict"}}};
   for (const Difference* one : differences) {
     const auto figure = [](double value) -> scoring::Cell {
-      return scoring::Figure{value, {}, decimals_of(value)};
+      return scoring::TableFigure{value, {}, decimals_of(value)};
     };
     const Interval& change = one->change;
     table.rows.push_back(
         {of_groups ? fmt::format("{} ({})", one->scenario, one->pairs) : one->scenario, one->metric,
          figure(one->before), figure(one->after),
-         scoring::Figure{change.mean, change.half, decimals_of(change.mean), true},
+         scoring::TableFigure{change.mean, change.half, decimals_of(change.mean), true},
          change.half ? word_of(one->verdict) : "noise unknown"});
   }
   return table_text(table, format);

@@ -24,7 +24,7 @@ using scoring::Format;
 constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
 
 scoring::Cell cell_of(const Interval& mean, bool with_half, int decimals, bool is_signed = false) {
-  return scoring::Figure{mean.mean, with_half ? mean.half : std::nullopt, decimals, is_signed};
+  return scoring::TableFigure{mean.mean, with_half ? mean.half : std::nullopt, decimals, is_signed};
 }
 
 /// Sort key: errors first, then by F1 upwards, then scenarios without F1.
@@ -312,7 +312,7 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   for (const Row& row : rows) {
     std::vector<scoring::Cell>& cells = figures.rows.emplace_back();
     cells.emplace_back(row.name);
-    for (const double figure : row.figures) cells.emplace_back(scoring::Figure{figure});
+    for (const double figure : row.figures) cells.emplace_back(scoring::TableFigure{figure});
   }
   add(figures, means_of(suite, rows), 2, false);
   std::vector<FigureTable> tables{figures};
