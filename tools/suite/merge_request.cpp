@@ -13,7 +13,6 @@
 
 #include "tools/files/output_file.h"
 #include "tools/scoring/events.h"
-#include "tools/scoring/metrics.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
