@@ -1,4 +1,4 @@
-"""Tests tools/package/build without a build: what it refuses and says, and that it leaves nothing half made.
+"""Tests tools/package/build without a build: what it refuses, says and leaves behind.
 
 Usage: build_test.py SOURCE VERSION
 """
@@ -13,8 +13,14 @@ import tempfile
 import unittest
 
 SOURCE, VERSION = pathlib.Path(sys.argv[1]), sys.argv[2]
-FILES = ["CMakeLists.txt", "CMakePresets.json", "tools/setup.sh"] + [
-    f"tools/package/{name}" for name in ("build", "CHANGELOG.md", "Containerfile", "requirements.txt")
+FILES = [
+    "CMakeLists.txt",
+    "CMakePresets.json",
+    "tools/setup.sh",
+    "tools/package/build",
+    "tools/package/CHANGELOG.md",
+    "tools/package/Containerfile",
+    "tools/package/requirements.txt",
 ]
 CPACK = """#!/bin/sh
 generator=$2
@@ -23,6 +29,11 @@ mkdir -p "$2"
 [ "$generator" = DEB ] && file=lcs.deb || file=lcs.tar.gz
 echo new > "$2/$file"
 [ "$generator" != "$LCS_FAILS" ]
+"""
+# Says of each package that it is installed.
+INSTALLED = """#!/bin/sh
+shift 2
+for package; do printf '%s=installed ' "$package"; done
 """
 
 
@@ -110,12 +121,6 @@ class Build(unittest.TestCase):
         self.assertEqual(self.made(), ["Containerfile", "lcs.deb"])
         self.assertEqual((self.out / "lcs.deb").read_text(), "earlier")
 
-
-# Says of each package that it is installed.
-INSTALLED = """#!/bin/sh
-shift 2
-for package; do printf '%s=installed ' "$package"; done
-"""
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
