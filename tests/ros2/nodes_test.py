@@ -77,7 +77,7 @@ class Nodes(unittest.TestCase):
         subprocess.run([PROGRAM, *map(str, words), "--quiet"], check=True, cwd=self.folder)
 
     def sequence(self, name, pictures):
-        sets = [f"camera.rate={RATE_HZ} Hz", f"frames={pictures}", "camera.size=[320, 240]"]
+        sets = [f"camera.rate={RATE_HZ} Hz", f"frames={pictures}", "camera.size=[320, 240]", "ego.speed=0.2 m/s"]
         words = [word for each in sets for word in ("--set", each)]
         self.program("generate", "crossing", *words, "--formats", "euroc", "--out", name)
         return self.folder / name

@@ -27,7 +27,7 @@ from pathlib import Path as _Path
 from numpy.typing import ArrayLike as _ArrayLike
 import typing
 from typing import Optional as _Optional, Union as _Union
-__all__: list[str] = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
+__all__: list[str] = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Live', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
 class Error(Exception):
     """
     An error as the program lcs prints it: the problem, its place, the remedy.
@@ -497,6 +497,47 @@ class Filter:
     def diagnostics(self) -> list[str]:
         """
         Problems of the data so far, a line for each kind.
+        """
+class Live:
+    """
+    Frames from outside, as of a robot: the corners, signatures and motions that a replay of its
+    recording has. Times are ns of one clock, and increase for each sensor.
+    """
+    def __init__(self, settings: str | os.PathLike[str]) -> None:
+        """
+        settings: lcs.json of a generated sequence, with camera, sensors, and the state at the first
+        frame. Raises Error with file, key and remedy.
+        """
+    def add_imu(self, time_ns: int, gyro: numpy.typing.ArrayLike, accel: numpy.typing.ArrayLike) -> None:
+        """
+        A reading, 3 numbers each, rad/s and m/s^2, in the IMU's frame. Raises ValueError if the time
+        goes back.
+        """
+    def add_odometry(self, time_ns: int, velocity: numpy.typing.ArrayLike, yaw_rate: float | None = None) -> None:
+        """
+        A reading of the wheels, as in Frame.odometry; likewise.
+        """
+    def frame(self, time_ns: int, picture: numpy.typing.ArrayLike) -> Frame:
+        """
+        The next Frame, by the readings up to its time that were added; later ones wait.
+
+        picture: H x W x 3 uint8, blue, green, red, as the camera gave it. Raises ValueError for another size
+        and if the time goes back, and then ignores the picture.
+        """
+    def is_due(self, time_ns: int) -> bool:
+        """
+        Whether each sensor of the settings has had a reading at this time or later, so that no earlier
+        one will come.
+        """
+    @property
+    def diagnostics(self) -> list[str]:
+        """
+        Problems of the readings so far, a line for each kind.
+        """
+    @property
+    def scenario(self) -> Scenario:
+        """
+        For Filter and Detector.
         """
 class Detections:
     """
