@@ -423,8 +423,10 @@ TEST_F(Generate, QuaternionsKeepTheirSignFromRowToRow) {
 /// The rows of a rolling shutter are later than the stamp of their picture.
 TEST_F(Generate, SensorsAndTruthReachBeyondTheLastRow) {
   const auto rows_by = [&](const std::string& out, const std::string& frames) {
-    const CommandResult made = generate({"--formats", "euroc", "--frames", frames, "--set",
-                                         "camera.rolling_shutter=30 ms", "--out", out});
+    const CommandResult made =
+        run_lcs({"generate", kCrossing, "--formats", "euroc", "--frames", frames, "--set",
+                 "camera.rolling_shutter=30 ms", "--out", out},
+                {.folder = home_.path()});
     EXPECT_EQ(made.exit_code, 0) << made.err;
     const fs::path mav0 = home_.path() / out / "mav0";
     return std::tuple(rows_of(mav0 / "cam0/data.csv"), rows_of(mav0 / "imu0/data.csv"),
@@ -432,6 +434,7 @@ TEST_F(Generate, SensorsAndTruthReachBeyondTheLastRow) {
   };
   const auto [pictures, imu, truth] = rows_by("short", "2");
   const auto [more_pictures, more_imu, more_truth] = rows_by("long", "3");
+  ASSERT_FALSE(pictures.empty() || imu.empty() || truth.empty() || more_imu.empty());
   const auto stamp_ns = [](const std::vector<std::string>& row) { return std::stoll(row.front()); };
   const std::int64_t last_row_ns = stamp_ns(pictures.back()) + 30'000'000;
   const std::int64_t step_ns = stamp_ns(imu[1]) - stamp_ns(imu[0]);

@@ -74,7 +74,7 @@ TEST_F(MergeRequest, SaysTheVerdictAndShowsTheEventThatGrewMostOnBothSides) {
   EXPECT_NE(text.find("| ![frame 12](before.jpg) | ![frame 14](after.jpg) |"), text.npos) << text;
   EXPECT_EQ(picture(kBeforePicture), "small");
   EXPECT_EQ(picture(kAfterPicture), "large");
-  EXPECT_NE(text.find("| 0.81 | 0.51 | -0.3 "), text.npos) << text;
+  EXPECT_NE(text.find("| 0.810 | 0.510 | -0.300 | regressed |"), text.npos) << text;
 }
 
 TEST_F(MergeRequest, SaysThatAnEventIsNewAndThatPicturesAreNotKept) {

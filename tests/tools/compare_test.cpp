@@ -172,7 +172,8 @@ TEST_F(CompareCommand, FramesAreOfRunsAndOnlyAllGoesWithThem) {
       << none.err;
   const CommandResult both = compare({"a", "a", "--frames", "--metric", "f1"});
   EXPECT_EQ(both.exit_code, 2);
-  EXPECT_NE(both.err.find("leave out --metric and --allow-missing"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("leave out --metric, --allow-missing and --format"), std::string::npos)
+      << both.err;
 }
 
 TEST_F(CompareCommand, FramesNameTheFirstThatDiffersAndRunsOfOneSide) {

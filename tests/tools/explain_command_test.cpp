@@ -152,7 +152,7 @@ TEST_F(ExplainCommand, GivesTheNumbersOfAllCornersAsJson) {
 /// by a pixel is named, too.
 TEST_F(ExplainCommand, NamesWrongMatchesAndToldMotionsByTruth) {
   ASSERT_EQ(lcs({"run", fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml", "--set", "frames=5", "--set",
-                 "camera.told.pitch_error=3 deg", "--no-video", "--quiet", "--out", "told"})
+                 "imu.gyroscope_turn_on_bias=0.1 rad/s", "--no-video", "--quiet", "--out", "told"})
                 .exit_code,
             0);
   const auto kinds = [](const CommandResult& result) {

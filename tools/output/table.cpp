@@ -109,6 +109,7 @@ scoring::FigureTable figure_table(
   scoring::FigureTable table{{{"figure", "figure"}, {"unit", "unit"}}};
   for (const auto& [name, metrics] : detectors) table.columns.push_back({name, name});
   for (const scoring::Metric& metric : scoring::metrics()) {
+    if (!metric.compute) continue;  // only suites have it
     std::vector<scoring::Cell> row{metric.key, std::string(metric.scale.unit)};
     bool is_there = false;
     for (const auto& [name, metrics] : detectors) {

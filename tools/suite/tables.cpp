@@ -6,7 +6,6 @@
 #include <array>
 #include <iterator>
 #include <optional>
-#include <string_view>
 
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
