@@ -425,7 +425,7 @@ TEST_F(Generate, SensorsAndTruthReachBeyondTheLastRow) {
   const auto rows_by = [&](const std::string& out, const std::string& frames) {
     const CommandResult made =
         run_lcs({"generate", kCrossing, "--formats", "euroc", "--frames", frames, "--set",
-                 "camera.rolling_shutter=30 ms", "--out", out},
+                 "camera.rolling_shutter=30 ms", "--set", "image.samples=1", "--out", out},
                 {.folder = home_.path()});
     EXPECT_EQ(made.exit_code, 0) << made.err;
     const fs::path mav0 = home_.path() / out / "mav0";
