@@ -130,9 +130,9 @@ void paint_views(const recording::FrameRecord& frame,
     for (scoring::EventView& view : event.views) {
       if (view.frame != frame.index) continue;
       const Cut cut = cut_out(view, kept.size(), scale);
-      // Pixels' edges: column 0 begins at -0.5.
-      view.shown_from_px = Vec2(cut.area.x, cut.area.y) / scale - Vec2(0.5, 0.5);
-      view.shown_size_px = Vec2(cut.area.width, cut.area.height) / scale;
+      view.half_size_px = Vec2(cut.area.width, cut.area.height) / (2 * scale);
+      // Column 0 begins at -0.5.
+      view.centre_px = Vec2(cut.area.x, cut.area.y) / scale + view.half_size_px - Vec2(0.5, 0.5);
       view.jpeg_base64 = scoring::base64(
           sim::encode_jpeg(paint(frame, outcomes, kept, cut, event), kShownQuality));
     }

@@ -288,8 +288,8 @@ function reasonBars(event) {
 
 /** The command that explains the corner at a click on a picture, for a shell in the folder of the page. */
 function explainAt(run, view, click) {
-  const [left, top, width, height] = view.shown;
-  const x = left + width * click.offsetX / click.target.clientWidth, y = top + height * click.offsetY / click.target.clientHeight;
+  const x = view.x + view.half_width * (2 * click.offsetX / click.target.clientWidth - 1);
+  const y = view.y + view.half_height * (2 * click.offsetY / click.target.clientHeight - 1);
   return commandLine(`lcs explain ${data.is_run ? '.' : run.folder} ${view.frame} ${x.toFixed(1)} ${y.toFixed(1)}`);
 }
 
@@ -301,7 +301,7 @@ function strip(event, run) {
   }
   return el('div', null, el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
     el('img', { title: 'A click on a corner gives the command that explains it',
-      onclick: view.shown[2] > 0 ? (click) => command.replaceChildren(explainAt(run, view, click)) : null, src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
+      onclick: (click) => command.replaceChildren(explainAt(run, view, click)), src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
     el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s')))), command);
 }

@@ -62,10 +62,8 @@ const EventKindText& text_of(SquareStep step);
 struct EventView {
   int frame = 0;  ///< frame index
   double t_s = 0;
-  Vec2 centre_px = Vec2::Zero();
-  Vec2 half_size_px = Vec2::Zero();
-  /// The part of the image that the picture shows; of size 0 without a picture.
-  Vec2 shown_from_px = Vec2::Zero(), shown_size_px = Vec2::Zero();
+  /// The part of the image to show; with a picture the larger part that it shows.
+  Vec2 centre_px = Vec2::Zero(), half_size_px = Vec2::Zero();
   std::string jpeg_base64;  ///< the annotated picture; empty: none
 };
 

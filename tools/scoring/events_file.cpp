@@ -16,9 +16,6 @@ files::Json json_of(const EventView& view) {
           {"y", view.centre_px.y()},
           {"half_width", view.half_size_px.x()},
           {"half_height", view.half_size_px.y()},
-          {"shown",
-           {view.shown_from_px.x(), view.shown_from_px.y(), view.shown_size_px.x(),
-            view.shown_size_px.y()}},
           {"jpeg_base64", view.jpeg_base64}};
 }
 
@@ -58,13 +55,6 @@ EventView view_of(const files::JsonNode& node) {
   view.t_s = node["t_s"].number();
   view.centre_px = {node["x"].number(), node["y"].number()};
   view.half_size_px = {node["half_width"].number(), node["half_height"].number()};
-  if (node.has("shown")) {  // absent in files of an earlier version
-    std::vector<double> shown;
-    node["shown"].each([&](const files::JsonNode& part) { shown.push_back(part.number()); });
-    shown.resize(4);
-    view.shown_from_px = {shown[0], shown[1]};
-    view.shown_size_px = {shown[2], shown[3]};
-  }
   view.jpeg_base64 = node["jpeg_base64"].text();
   return view;
 }
