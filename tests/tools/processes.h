@@ -7,11 +7,20 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
 namespace lcs::test {
+
+/// The text of a file of /proc; empty if the process ends before or while it is read. (An iterator
+/// over the file's buffer would throw then.)
+inline std::string text_in(const std::filesystem::path& file) {
+  const std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
 
 /// State of a process as one letter, and its parent; the state is 0 after its end.
 struct ProcessState {
@@ -19,8 +28,7 @@ struct ProcessState {
   pid_t parent = 0;
 };
 inline ProcessState state_of(const std::string& process) {
-  std::ifstream file(std::filesystem::path("/proc") / process / "stat");
-  const std::string stat{std::istreambuf_iterator<char>(file), {}};
+  const std::string stat = text_in(std::filesystem::path("/proc") / process / "stat");
   const std::size_t after_name = stat.rfind(')');
   ProcessState state;
   if (after_name != std::string::npos) {
@@ -37,8 +45,7 @@ inline bool is_running(pid_t process) {
 
 /// Its program and arguments, each ended by a NUL; empty after its end.
 inline std::string command_line_of(pid_t process) {
-  std::ifstream file(std::filesystem::path("/proc") / std::to_string(process) / "cmdline");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return text_in(std::filesystem::path("/proc") / std::to_string(process) / "cmdline");
 }
 
 /// The running children of a process.
