@@ -161,8 +161,8 @@ std::string aligned(const FigureTable& table) {
     add_line(std::get<std::string>(row.front()), [&](std::size_t c) {
       const Width& width = widths[c];
       const std::size_t numbers = width.cell() - width.half;
-      const auto* figure = c < row.size() ? std::get_if<TableFigure>(&row[c]) : nullptr;
-      const auto* words = c < row.size() ? std::get_if<std::string>(&row[c]) : nullptr;
+      const auto* figure = std::get_if<TableFigure>(&row[c]);
+      const auto* words = std::get_if<std::string>(&row[c]);
       if (words != nullptr) return padded(*words, width.cell());
       const std::string number = figure ? number_of(*figure) : "-";
       return padded(

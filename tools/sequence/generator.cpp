@@ -94,8 +94,8 @@ class FrameMaker {
       : info_(info), writers_(writers_of(info, options)) {}
 
   /// \param next null for the scenario's last frame, whose flow and goals are not checked.
-  /// \param late readings after the last frame, which are written with it.
-  void make(sim::Observation now, const sim::Observation* next, const sim::FrameReadings& late,
+  /// \param late readings after the last frame, which are added to `now` and written with it.
+  void make(sim::Observation& now, const sim::Observation* next, const sim::FrameReadings& late,
             FrameOutput& all, Agreements& checks) const {
     check_times(info_.scenario, now);
     checks["imu_share_of_tolerance"].add(
@@ -255,7 +255,7 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
   std::vector<FrameMaker> makers;
   for (const SequenceInfo& info : rig.infos()) makers.emplace_back(info, options);
   std::vector<sim::Observation> last;  // until its next frame is simulated
-  const auto make = [&](const std::vector<sim::Observation>& now,
+  const auto make = [&](std::vector<sim::Observation>& now,
                         const std::vector<sim::Observation>& next) {
     FrameOutput output;
     Agreements checks;
