@@ -122,7 +122,7 @@ def cases():
     yield Case("generate after a part", generate + ["euroc"], made, files=one,
                before=[generate + ["euroc", "--shard", "1/2"]], whole_if="manifest.json",
                never_torn=False)
-    for more in ["coco", "dsec", "mcap"]:
+    for more in ["coco", "dsec", "mcap", "rrd"]:
         yield Case(f"generate --add {more}", generate + [more, "--add"], made, files=one,
                    whole_if="manifest.json", earlier=[generate + ["euroc"]], never_torn=False)
     yield Case("tune", ["tune", "train", "--keys", "hypotheses.prior", "--evaluations", "3",
@@ -678,7 +678,8 @@ def table(rows):
 
 
 def is_able(case, python):
-    needed = {"generate --add mcap": "rosbags", "generate --add dsec": "h5py"}.get(case.name)
+    needed = {"generate --add mcap": "rosbags", "generate --add dsec": "h5py",
+              "generate --add rrd": "rerun"}.get(case.name)
     return not needed or subprocess.run([python, "-c", f"import {needed}"], check=False,
                                         stderr=subprocess.DEVNULL).returncode == 0
 

@@ -16,7 +16,7 @@
 namespace lcs::sequence {
 
 /// The texts of readme/. The head has fields in braces.
-extern const std::string_view kEuroc, kTum, kKalibr, kKitti, kMcap, kRpg, kDsec, kMot, kCoco,
+extern const std::string_view kEuroc, kTum, kKalibr, kKitti, kMcap, kRrd, kRpg, kDsec, kMot, kCoco,
     kDavis, kFlow, kDepth, kLandmarks, kPictures, kObjects, kHead;
 
 namespace {
@@ -118,6 +118,8 @@ const std::vector<Format>& formats() {
        kitti_writer, 0.001, 0, false},
       {"mcap", "messages of ROS 2 in a bag of MCAP; needs PyPI's rosbags", kMcap, mcap_writer, 0,
        600, false, 1},
+      {"rrd", "all sensors and poses in a recording of Rerun; needs PyPI's rerun-sdk", kRrd,
+       rrd_writer, 0, 250, false, 1},
       {"events", "events, pictures and IMU: text of RPG's event-camera dataset", kRpg, rpg_writer,
        10, 90, false},
       {"dsec", "events: DSEC's HDF5; needs h5py", kDsec, dsec_writer, 1.2, 0, false},

@@ -35,7 +35,7 @@ constexpr const char* kSign = "# Written by `lcs generate`: the frames that are 
 constexpr const char* kRemedy = "remove this file to have its frames made again";
 constexpr const char* kFormats = "formats";
 /// Facts by which a sequence may differ from the one that formats are added to.
-constexpr std::array<std::string_view, 3> kOfFormats{kFormats, "rosbags", "h5py"};
+constexpr std::array<std::string_view, 4> kOfFormats{kFormats, "rosbags", "rerun-sdk", "h5py"};
 
 /// Formats decide the names of a sequence's files.
 files::ResultNames sequence_files() {

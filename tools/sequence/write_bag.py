@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the messages of a generated sequence as a rosbag2 of MCAP: write_bag.py MESSAGES SEQUENCE OUT
 
-MESSAGES has a JSON object a line, as mcap_writer.cpp writes them: first the sensors, then each frame
+MESSAGES has a JSON object a line, as message_writers.cpp writes them: first the sensors, then each frame
 of each camera. Pictures are taken from the folder SEQUENCE, byte by byte. OUT is a new folder. With
 --version alone it prints the version of rosbags. Needs PyPI's rosbags. Lengths are in m, angles in rad.
 T_AB, as [x, y, z, qx, qy, qz, qw], is the pose of frame B in frame A.

@@ -99,8 +99,8 @@ struct Writer {
 using MakeWriter = Writer(const SequenceInfo& info);
 /// The writers, one for each format; those of like formats share a file.
 MakeWriter picture_writer, euroc_writer, kalibr_writer, kitti_writer, tum_writer, mcap_writer,
-    rpg_writer, dsec_writer, mot_writer, coco_writer, davis_writer, flow_writer, depth_writer,
-    landmarks_writer;
+    rrd_writer, rpg_writer, dsec_writer, mot_writer, coco_writer, davis_writer, flow_writer,
+    depth_writer, landmarks_writer;
 
 /// A format that `lcs generate` writes.
 struct Format {
@@ -130,9 +130,11 @@ struct Scripted {
   const char* script;
   bool takes_pictures;
 };
-inline constexpr const char *kBagFile = "rosbag/rosbag.mcap", *kDsecFile = "dsec/events.h5";
-inline constexpr std::array<Scripted, 2> kScripted{
+inline constexpr const char *kBagFile = "rosbag/rosbag.mcap", *kRerunFile = "rerun/sequence.rrd",
+                            *kDsecFile = "dsec/events.h5", *kLayoutFile = "foxglove.json";
+inline constexpr std::array<Scripted, 3> kScripted{
     {{"mcap", "rosbags", kBagFile, "write_bag.py", true},
+     {"rrd", "rerun-sdk", kRerunFile, "write_rrd.py", true},
      {"dsec", "h5py", kDsecFile, "write_events.py", false}}};
 
 /// Runs the script. \return its standard output. \throws std::runtime_error with its message if it

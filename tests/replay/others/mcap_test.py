@@ -180,4 +180,5 @@ def main() -> None:
     print("fine: the bag has the sequence, message by message")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,5 +1,5 @@
-// ROS 2 messages in a bag of MCAP. The rows are JSON, which write_bag.py turns into the bag by
-// PyPI's rosbags.
+// Messages of all sensors for viewers. The rows are JSON, which write_bag.py turns into a bag of
+// ROS 2 by PyPI's rosbags, and write_rrd.py into a recording of Rerun by PyPI's rerun-sdk.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +9,10 @@
 #include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
+
+/// readme/foxglove.json, a layout of Foxglove.
+extern const std::string_view kFoxglove;
+
 namespace {
 
 nlohmann::json numbers_of(const Eigen::Vector3d& v) {
@@ -60,10 +64,9 @@ nlohmann::json sensors(const SequenceInfo& info) {
   return json;
 }
 
-}  // namespace
-
-Writer mcap_writer(const SequenceInfo& info) {
-  const auto write = [info](const FrameView& frame, FrameOutput& output) {
+/// \param format whose stream has the rows. \param file of its document.
+Writer message_writer(const SequenceInfo& info, const std::string& format, const char* file) {
+  const auto write = [info, format](const FrameView& frame, FrameOutput& output) {
     const sim::Observation& o = frame.now;
     nlohmann::json json{{"t", frame.stamp_ns},
                         {"place", info.place},
@@ -94,15 +97,28 @@ Writer mcap_writer(const SequenceInfo& info) {
                        {"v_C", numbers_of(T_WC.R.transpose() * o.truth.v_WC_mps)},
                        {"w_C", numbers_of(o.truth.w_C_radps)}};
     }
-    output.rows["mcap"] = files::json_text(json) + "\n";
+    output.rows[format] = files::json_text(json) + "\n";
   };
   if (!info.is_first()) return {write};
-  SequenceDocument bag{kBagFile, {{.text = files::json_text(sensors(info)) + "\n"}}};
+  SequenceDocument messages{file, {{.text = files::json_text(sensors(info)) + "\n"}}};
   for (std::size_t place = 0; place < info.rig.size(); ++place) {
     const std::string of = place == 0 ? "" : camera_name(place) + "/";
-    bag.parts.push_back({.stream = of + "mcap"});
+    messages.parts.push_back({.stream = of + format});
   }
-  return {write, {bag}};
+  return {write, {messages}};
+}
+
+}  // namespace
+
+Writer mcap_writer(const SequenceInfo& info) {
+  Writer writer = message_writer(info, "mcap", kBagFile);
+  if (info.is_first())
+    writer.documents.push_back({kLayoutFile, {{.text = std::string(kFoxglove)}}});
+  return writer;
+}
+
+Writer rrd_writer(const SequenceInfo& info) {
+  return message_writer(info, "rrd", kRerunFile);
 }
 
 }  // namespace lcs::sequence
