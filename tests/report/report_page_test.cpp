@@ -422,15 +422,15 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
   RunResult run = run_with(1, 0.8);
   run.folder = ".";
   const SuiteResult suite = suite_of({scenario_with("one", {run})});
-  EXPECT_FALSE(json::parse(run_report_data(in_folder(suite))).contains("video"));
+  EXPECT_FALSE(json::parse(run_report_data(in_folder(suite), nullptr)).contains("video"));
   std::ofstream(folder_.path() / output::kVideoFile) << "film";
-  const json all = json::parse(run_report_data(in_folder(suite)));
+  const json all = json::parse(run_report_data(in_folder(suite), nullptr));
   EXPECT_EQ(all.at("video"), "ZmlsbQ==");
   EXPECT_EQ(all.at("is_run"), true);
   EXPECT_EQ(all.at("verdict"), "1 of 1 criteria met, 0 failed");
   // A video that is too large for a page is named.
   fs::resize_file(folder_.path() / output::kVideoFile, kVideoBudget + 1'000'000);
-  const json large = json::parse(run_report_data(in_folder(suite)));
+  const json large = json::parse(run_report_data(in_folder(suite), nullptr));
   EXPECT_FALSE(large.contains("video"));
   EXPECT_EQ(large.at("video_left_out_mb"), 65);
 }

@@ -31,7 +31,8 @@ class ExplainCommand : public testing::Test {
     made_ = std::make_unique<TemporaryFolder>();
     const CommandResult result =
         lcs({"run", fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml", "--set", "frames=8", "--set",
-             "filter.hypotheses.prior=0.05", "--no-video", "--events", "--quiet", "--out", "run"});
+             "filter.hypotheses.prior=0.05", "--no-video", "--events", "--report", "--quiet",
+             "--out", "run"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   static void TearDownTestSuite() { made_.reset(); }
@@ -148,6 +149,64 @@ TEST_F(ExplainCommand, GivesTheNumbersOfAllCornersAsJson) {
   EXPECT_NE(result.out.find(one.out), std::string::npos) << one.out << one.err;
 }
 
+TEST_F(ExplainCommand, GivesTheNumbersOfAllFramesAsJson) {
+  const auto lines_of = [](const CommandResult& result, int frame) {
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<nlohmann::json> found;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) {
+      found.push_back(nlohmann::json::parse(line));
+      found.back().erase("history");
+      if (found.back().at("frame") != frame) found.pop_back();
+    }
+    return found;
+  };
+  const CommandResult all = lcs({"explain", "run", "--json"});
+  EXPECT_EQ(all.out.find("history"), std::string::npos);
+  for (const int frame : {0, kFrame, 7}) {
+    const auto of_one = lcs({"explain", "run", std::to_string(frame), "--json"});
+    EXPECT_EQ(lines_of(all, frame), lines_of(of_one, frame));
+    EXPECT_FALSE(lines_of(all, frame).empty());
+  }
+  EXPECT_TRUE(lines_of(all, 8).empty()) << "the run has 8 frames";
+}
+
+/// The page of a run has the text of the command for the corners that its pictures mark.
+TEST_F(ExplainCommand, TheReportHasTheExplanationsOfTheCornersOnItsPictures) {
+  const std::string page = read(home() / "run" / "report.html");
+  const std::string head = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = page.find(head) + head.size();
+  const auto data =
+      nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  ASSERT_FALSE(data.at("explained").empty());
+  int told = 0, drawn = 0;
+  for (const auto& [frame, corners] : data.at("explained").items()) {
+    ASSERT_FALSE(corners.empty()) << "frame " << frame;
+    for (std::size_t i = 0; i < corners.size(); i += 1 + corners.size() / 3) {
+      const auto& corner = corners[i];
+      const CommandResult result =
+          lcs({"explain", "run", frame, corner.at("x").dump(), corner.at("y").dump()});
+      const std::string text = corner.at("text");
+      EXPECT_TRUE(result.out.starts_with(text)) << text << "\nbut\n" << result.out;
+      ++told;
+      if (!corner.contains("history")) continue;
+      EXPECT_EQ(std::ranges::count(result.out, '\n') - std::ranges::count(text, '\n'),
+                std::ssize(corner.at("history")) + 1);
+      ++drawn;
+      const auto& last = corner.at("history").back();
+      ASSERT_EQ(last.size(), 6);
+      EXPECT_EQ(last[0], std::stoi(frame));
+      EXPECT_TRUE(result.out.ends_with("  " + last[5].get<std::string>() + "\n")) << last;
+      for (const auto& neighbour : corner.value("neighbours", nlohmann::json::array())) {
+        ASSERT_EQ(neighbour.size(), 4);
+        EXPECT_LE(std::abs(neighbour[3].get<double>()), 1) << "tanh(m/2)";
+      }
+    }
+  }
+  EXPECT_GT(told, 3);
+  EXPECT_GT(drawn, 3);
+}
+
 /// A corner whose point went elsewhere has a wrong match by truth, and a told motion that is wrong
 /// by a pixel is named, too.
 TEST_F(ExplainCommand, NamesWrongMatchesAndToldMotionsByTruth) {
@@ -196,6 +255,8 @@ TEST_F(ExplainCommand, RefusesWhatItCannotExplain) {
   expect_refused({"run", "8", "100", "100"}, "run has no frame 8; give one below 8");
   expect_refused({"run", "-1", "100", "100"}, "");
   expect_refused({"run", "5"}, "give the corner by X and Y, or by --track");
+  expect_refused({"run"}, "give the corner by X and Y, or by --track");
+  expect_refused({"run", "--track", "1"}, "give FRAME, in which --track names the corner");
   expect_refused({"run", "5", "--track", "1000000"}, "no corner of the frame is on track 1000000");
   const Eigen::Vector2f first = frame().corners_px.front();
   expect_refused({"run", "5", fmt::format("{}", first.x()), "5000"}, " px away");

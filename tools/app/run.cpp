@@ -15,6 +15,7 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"
+#include "tools/explain/explainer.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 #include "tools/report/report_page.h"
@@ -210,9 +211,22 @@ void write_how_made(const RunRequest& request, const scenario::Scenario& scenari
                       files::provenance_of(std::move(facts)));
 }
 
+/// The corners on the pictures of the run's events; null for a run that `lcs explain` cannot
+/// explain.
+files::Json explained(const RunRequest& request, const Watching& own,
+                      const std::filesystem::path& folder, Caller& caller) {
+  const AnyParameters parameters = bench::filter_parameters(own.scenario);
+  const bool is_plain = own.spec.detector.layered && std::holds_alternative<Parameters>(parameters);
+  if (!is_plain || request.keep != output::Keep::all) return nullptr;
+  return explain::explained_views(folder, parameters,
+                                  scoring::read_events(folder / scoring::kEventsFile),
+                                  [&] { caller.check(); });
+}
+
 /// Writes the report page of the run as a suite with a single run.
 void write_page(const RunRequest& request, const scenario::Scenario& scenario, const Watching& own,
-                const std::filesystem::path& folder, const scoring::Metrics& metrics) {
+                const std::filesystem::path& folder, const scoring::Metrics& metrics,
+                Caller& caller) {
   suite::RunResult run{.seed = scenario.seed,
                        .outcome = suite::Outcome::passed,
                        .command = command_of(request, scenario, own, true),
@@ -230,7 +244,8 @@ void write_page(const RunRequest& request, const scenario::Scenario& scenario, c
                              .file = request.scenario,
                              .groups = scenario.groups,
                              .runs = {run}});
-  report::write_run_report(folder / report::kReportFile, {suite, folder});
+  report::write_run_report(folder / report::kReportFile, {suite, folder},
+                           explained(request, own, folder, caller));
 }
 
 /// \param playback of the scenario's recording; null: it is simulated.
@@ -265,7 +280,7 @@ void make_detectors(const RunRequest& request, const scenario::Scenario& scenari
 
 /// Begins the outputs. The run's own detector has the pictures and the page.
 void open_results(const RunRequest& request, const scenario::Scenario& scenario,
-                  const Frames& frames, std::vector<Watching>& all) {
+                  const Frames& frames, std::vector<Watching>& all, Caller& caller) {
   Watching& own = all.front();
   // The frames of a recording keep their truth: its file is copied if its form stays.
   const bool is_truth_there =
@@ -283,7 +298,7 @@ void open_results(const RunRequest& request, const scenario::Scenario& scenario,
       what.events = request.events || request.report;
       if (request.report) {
         what.add_page = [&](const std::filesystem::path& folder, const scoring::Metrics& figures) {
-          write_page(request, scenario, own, folder, figures);
+          write_page(request, scenario, own, folder, figures, caller);
         };
       }
       what.kept = frames.pictures;
@@ -364,7 +379,7 @@ RunMade run_scenario(const RunRequest& request, scenario::Scenario scenario, Cal
   scoring::require_known_metrics(scenario.criteria);
   const Frames frames = frames_of(request, scenario, playback ? &*playback : nullptr);
   make_detectors(request, scenario, frames, all, caller);
-  open_results(request, scenario, frames, all);
+  open_results(request, scenario, frames, all, caller);
   warn_before(scenario, all, caller);
   const bench::RunEnd end = watch(scenario, frames, all, caller);
   caller.warn(frames.missing());

@@ -286,12 +286,53 @@ function reasonBars(event) {
   }));
 }
 
-/** The command that explains the corner at a click on a picture, for a shell in the folder of the page. */
-function explainAt(run, view, click) {
-  const x = view.x + view.half_width * (2 * click.offsetX / click.target.clientWidth - 1);
-  const y = view.y + view.half_height * (2 * click.offsetY / click.target.clientHeight - 1);
-  return commandLine(`lcs explain ${data.is_run ? '.' : run.folder} ${view.frame} ${x.toFixed(1)} ${y.toFixed(1)}`);
+const ink = (moves) => 'var(--' + (moves ? 's4' : 's1') + ')';
+
+/** The surroundings of a corner on an enlarged picture: a line to each neighbour, as wide as its weight and as strong as its belief,
+ * red if it says that the corner moves; a cross at each prediction, of a static point blue, of a moving one red. */
+function surroundings(corner, view) {
+  const cross = (at, moves) => at && el('g', null, ...[['white', 0.9], [ink(moves), 0.4]].map(([stroke, width]) =>
+    el('path', { d: `M${at[0] - 1},${at[1] - 1}l2,2m0,-2l-2,2`, stroke, 'stroke-width': width })));
+  return el('svg', { viewBox: `${corner.x - 32} ${corner.y - 24} 64 48`, role: 'img', 'aria-label': 'its neighbours and predictions' },
+    el('image', { href: picture(view), x: view.x - view.half_width, y: view.y - view.half_height, width: 2 * view.half_width, height: 2 * view.half_height }),
+    ...(corner.neighbours || []).map(([x, y, weight, belief]) => el('line', { x1: corner.x, y1: corner.y, x2: x, y2: y,
+      stroke: ink(belief > 0), 'stroke-width': 0.3 + weight, 'stroke-opacity': 0.1 + 0.9 * Math.abs(belief) })),
+    cross(corner.static, false), cross(corner.moving, true));
 }
+
+/** The history of a corner: L (dots) and m (rings) from -12 to 12, and the misses of the static (blue) and the moving prediction (red). */
+function historyPlot(corner) {
+  const first = corner.history[0][0], frames = Math.max(1, corner.history.at(-1)[0] - first);
+  const dot = (frame, value, colour, hollow) => isNumber(value) && el('path', { stroke: colour, fill: hollow ? 'none' : colour,
+    d: `M${4 + 152 * (frame - first) / frames - 1},${20 - 1.5 * Math.max(-12, Math.min(12, value))}a1,1 0 1,0 2,0a1,1 0 1,0 -2,0`, 'stroke-width': 0.5 });
+  return el('figure', null, el('svg', { viewBox: '0 0 160 40', role: 'img', 'aria-label': 'its history; the table has the numbers' },
+    el('line', { x1: 0, y1: 20, x2: 160, y2: 20, stroke: 'var(--quiet)', 'stroke-width': 0.3 }),
+    ...corner.history.flatMap(([frame, still, moving, L, m]) => [dot(frame, still, ink(false)), dot(frame, moving, ink(true)),
+      dot(frame, L, 'var(--quiet)'), dot(frame, m, 'var(--text)', true)].filter(Boolean))),
+    el('figcaption', null, `frames ${first} to ${first + frames}, -12 to 12: L grey, m rings; misses in px, static blue, moving red`));
+}
+
+/** The sightings of a corner, as `lcs explain` prints them. */
+function historyText(corner) {
+  const cells = (row) => row.map((cell, i) => cell === null ? '-' : isNumber(cell) && i > 0 ? cell.toFixed(2) : String(cell));
+  return [['frame', 'miss static', 'miss moving', 'L', 'm', 'verdict'], ...corner.history].map(cells)
+    .map((row) => [5, 11, 11, 6, 6, 0].map((width, i) => row[i].padStart(width)).join('  ') + '\n').join('');
+}
+
+/** The explanation of the corner at a click on a picture, and the command for it in the folder of the page. */
+function explainAt(run, view, click) {
+  const scale = 2 * view.half_width / click.target.clientWidth;
+  const x = view.x + scale * click.offsetX - view.half_width, y = view.y + scale * click.offsetY - view.half_height;
+  const off = (corner) => Math.hypot(corner.x - x, corner.y - y);
+  const near = ((data.explained || {})[view.frame] || []).filter((corner) => off(corner) < Math.max(3, 8 * scale));
+  const corner = near.sort((a, b) => off(a) - off(b))[0];
+  const at = corner || { x: x.toFixed(1), y: y.toFixed(1) };
+  const command = commandLine(`lcs explain ${data.is_run ? '.' : run.folder} ${view.frame} ${at.x} ${at.y}`);
+  return corner ? el('div', { class: 'explained' }, corner.history ? el('div', null, surroundings(corner, view), historyPlot(corner)) : null,
+    el('pre', null, corner.text + (corner.history ? historyText(corner) : '')), command) : command;
+}
+
+const picture = (view) => 'data:image/jpeg;base64,' + view.jpeg_base64;
 
 function strip(event, run) {
   const command = el('div');
@@ -300,8 +341,8 @@ function strip(event, run) {
     return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; the command above shows them with --report.') : null;
   }
   return el('div', null, el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
-    el('img', { title: 'A click on a corner gives the command that explains it',
-      onclick: (click) => command.replaceChildren(explainAt(run, view, click)), src: 'data:image/jpeg;base64,' + view.jpeg_base64, width: 256, height: 192,
+    el('img', { title: 'A click on a corner explains it',
+      onclick: (click) => command.replaceChildren(explainAt(run, view, click)), src: picture(view), width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
     el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s')))), command);
 }

@@ -8,7 +8,8 @@ const data = JSON.parse(document.getElementById('data').textContent);
 
 /** Makes an element. Attributes and children that are null are omitted. */
 function el(tag, attributes, ...children) {
-  const node = document.createElement(tag);
+  const node = ['svg', 'g', 'image', 'line', 'path'].includes(tag) ? document.createElementNS('http://www.w3.org/2000/svg', tag)
+    : document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined) continue;
     if (name.startsWith('on')) node.addEventListener(name.slice(2), value);

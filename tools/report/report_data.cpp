@@ -403,10 +403,11 @@ std::string report_data(const SuiteInFolder& suite, const suite::SuiteVerdict& v
   return files::json_text(data);
 }
 
-std::string run_report_data(const SuiteInFolder& suite) {
+std::string run_report_data(const SuiteInFolder& suite, const files::Json& explained) {
   files::Json data =
       data_of(suite, suite::verdict_of(suite, nullptr, nullptr), nullptr, kPictureBudget);
   data["is_run"] = true;
+  data["explained"] = explained;
   const fs::path video = suite.folder / output::kVideoFile;
   if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {
     data["video_left_out_mb"] = fs::file_size(video) / 1'000'000;
@@ -426,9 +427,10 @@ void write_report(const std::filesystem::path& file, const suite::SuiteInFolder&
              {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
 }
 
-void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite) {
+void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
+                      const files::Json& explained) {
   const std::string title = "lcs run: " + suite.suite.scenarios.at(0).name;
-  const std::string data = run_report_data(suite);
+  const std::string data = run_report_data(suite, explained);
   write_page(
       file,
       {.title = title, .data = data, .script = kReportJs, .where_else = scoring::kMetricsFile});

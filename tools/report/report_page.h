@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
@@ -37,8 +38,9 @@ void write_report(const std::filesystem::path& file, const suite::SuiteInFolder&
                   std::span<const suite::SuiteResult> others = {});
 
 /// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
-/// \throws as `write_report`.
-void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
+/// \param explained `explain::explained_views`, or null. \throws as `write_report`.
+void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
+                      const nlohmann::ordered_json& explained);
 
 /// Limit of a page's pictures in bytes; the costliest events have priority.
 inline constexpr std::size_t kPictureBudget = 6'000'000;
@@ -51,7 +53,8 @@ std::string report_data(const suite::SuiteInFolder& suite, const suite::SuiteVer
                         std::span<const suite::SuiteResult> others = {});
 
 /// The JSON text of a single run, with its video if its folder has one.
-std::string run_report_data(const suite::SuiteInFolder& suite);
+std::string run_report_data(const suite::SuiteInFolder& suite,
+                            const nlohmann::ordered_json& explained);
 
 inline constexpr const char* kWorldsFile = "worlds.html";
 inline constexpr const char* kSheetsFolder = "worlds";

@@ -1,0 +1,101 @@
+/// \file
+/// Explains why the filter called a corner of a stored run a rebel, or did not: the filter goes
+/// over the frames again, and each corner has the numbers of its verdict, with the equations of
+/// filter/MODEL.md, and the cause of an error by the truth.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <opencv2/core.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "filter/edges/explanation.h"
+#include "tools/bench/detector.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/score_rebels.h"
+
+namespace lcs::explain {
+
+/// A corner of a track in a frame.
+struct Sighting {
+  int frame;
+  std::size_t corner;  ///< index in the frame
+  Verdict verdict;
+  sim::CornerTruth truth;
+  Explanation why;
+};
+
+/// A frame of the run, and all that explains its corners.
+struct Explained {
+  recording::RunInfo run;
+  FieldParameters field;
+  recording::FrameRecord frame;
+  std::vector<scoring::CornerOutcome> outcomes;  ///< of its corners
+  std::map<Id, std::vector<Sighting>> tracks;    ///< that live then, with their sightings
+  std::vector<Id> track_of;  ///< of its corners; 0 if the filter has left the corner out
+
+  Vec2 place_px(std::size_t corner) const { return frame.corners_px.at(corner).cast<double>(); }
+  /// The sightings of the corner's track up to this frame; empty if it has no track.
+  std::span<const Sighting> history(std::size_t corner) const;
+};
+
+/// Reads a run frame by frame, and explains it. A frame takes the filter's time and its reading.
+class Explainer {
+ public:
+  /// \param run folder with the layers and the truth of all frames.
+  /// \param parameters of its filter.
+  /// \throws std::runtime_error with the remedy if there are no frames, or if another detector than
+  ///   the default filter made them; otherwise as `RecordingReader`.
+  Explainer(const std::filesystem::path& run, const AnyParameters& parameters);
+
+  /// Goes on to the next frame. \return false after the last.
+  /// \throws std::runtime_error if the filter does not come to the stored verdicts.
+  bool next();
+
+  /// The last frame that was read.
+  const Explained& frame() const { return said_; }
+
+ private:
+  std::filesystem::path run_;
+  recording::RecordingReader reader_;
+  bench::LcsDetector detector_;
+  int coast_frames_ = 0;
+  scoring::RebelScorer scorer_;
+  Explained said_;
+};
+
+/// Verdict and truth, and a line for each number; without a track only the first.
+std::string text_of(const Explained& said, std::size_t corner);
+/// A table of the sightings; "" without a track.
+std::string history_text(const Explained& said, std::size_t corner);
+/// The last column of that table: the verdict, and the object that the corner was on.
+std::string verdict_text(const Explained& said, const Sighting& one);
+
+/// The same numbers; those that are not there are null.
+nlohmann::ordered_json json_of(const Explained& said, std::size_t corner);
+
+/// The surroundings of the corner with its predictions and neighbours; below, its history.
+/// \param corner has a track. \param image of the frame, BGR.
+cv::Mat3b picture_of(const Explained& said, std::size_t corner, const cv::Mat3b& image);
+
+/// All corners that the pictures of these events mark, for the page of a run: by the number of the
+/// frame a list of {x, y, text} with, for a corner on a track, its predictions `static` and
+/// `moving`
+/// ([x, y], null without one), `neighbours` ([x, y, k, tanh(m/2)] each) and `history` ([frame, miss
+/// of the static and of the moving prediction in px, L, m, verdict] each). Stops after
+/// `kMostBytes`. \param check called for each frame; an exception of it ends the work. \throws as
+/// `Explainer`
+nlohmann::ordered_json explained_views(const std::filesystem::path& run,
+                                       const AnyParameters& parameters,
+                                       const std::vector<scoring::ScoredEvent>& events,
+                                       const std::function<void()>& check);
+
+/// Limit of the texts of `explained_views`; the first frames have priority.
+inline constexpr std::size_t kMostBytes = 3'000'000;
+
+}  // namespace lcs::explain
