@@ -45,6 +45,7 @@ def generated():
     text = re.sub(r"^from \. import _core\n", "", text, flags=re.MULTILINE)
     text = re.sub(r"^    ([A-Z_0-9]+): typing\.ClassVar\[\w+\]$", r"    \1 = ...", text, flags=re.MULTILINE)
     text = text.replace("-> dict:", "-> dict[str, typing.Any]:").replace("__all__: list ", "__all__: list[str] ")
+    text = text.replace("(dict):", "(dict[str, typing.Any]):")
     text = text.replace("-> list:", "-> list[numpy.typing.NDArray[numpy.float64]]:")
     # The first line of a docstring names the type of an array's elements.
     text = re.sub(

@@ -44,8 +44,18 @@ def text_of(path):
     if (ROOT / path).is_dir():
         inside = sorted(name for name in tracked() if posixpath.dirname(name) == path)
         return f"# {path}/\n\n" + "".join(f"- [{Path(name).name}]({Path(name).name})\n" for name in inside)
+    if path.endswith(".ipynb"):
+        return notebook(path)
     name = LANGUAGES.get(Path(path).suffix, "text")
     return f"# {path}\n\n~~~~~~~~{name}\n{(ROOT / path).read_text()}\n~~~~~~~~\n"
+
+
+def notebook(path):
+    """The cells of a notebook, which is kept without outputs."""
+    cells = json.loads((ROOT / path).read_text())["cells"]
+    texts = [(cell["cell_type"], "".join(cell["source"])) for cell in cells]
+    shown = [text if kind == "markdown" else f"~~~~~~~~python\n{text}\n~~~~~~~~" for kind, text in texts]
+    return "\n\n".join([*shown, f"As a notebook: `{path}`.\n"])
 
 
 def rows(properties, prefix=""):

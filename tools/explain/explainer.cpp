@@ -24,12 +24,6 @@ void step(const recording::FrameRecord& frame, const std::filesystem::path& run,
                   run.string(), frame.index));
 }
 
-/// \throws std::runtime_error if the folder has no frames.
-const std::filesystem::path& with_frames(const std::filesystem::path& run) {
-  if (std::filesystem::exists(recording::stored(run, recording::kLayersFile))) return run;
-  throw std::runtime_error(run.string() + " has no frames; name a run made with --keep all");
-}
-
 /// The camera as given to the filter, which is the only detector that can be explained.
 Intrinsics camera_of(const recording::RunInfo& run, const AnyParameters& parameters,
                      const std::filesystem::path& folder) {
@@ -42,6 +36,11 @@ Intrinsics camera_of(const recording::RunInfo& run, const AnyParameters& paramet
 }
 
 }  // namespace
+
+const std::filesystem::path& with_frames(const std::filesystem::path& run) {
+  if (std::filesystem::exists(recording::stored(run, recording::kLayersFile))) return run;
+  throw std::runtime_error(run.string() + " has no frames; name a run made with --keep all");
+}
 
 std::span<const Sighting> Explained::history(std::size_t corner) const {
   const Id track = track_of.at(corner);

@@ -44,13 +44,16 @@ struct Explained {
   std::span<const Sighting> history(std::size_t corner) const;
 };
 
+/// The same folder. \throws std::runtime_error with the remedy if it has no frames.
+const std::filesystem::path& with_frames(const std::filesystem::path& run);
+
 /// Reads a run frame by frame, and explains it. A frame takes the filter's time and its reading.
 class Explainer {
  public:
   /// \param run folder with the layers and the truth of all frames.
   /// \param parameters of its filter.
-  /// \throws std::runtime_error with the remedy if there are no frames, or if another detector than
-  ///   the default filter made them; otherwise as `RecordingReader`.
+  /// \throws as `with_frames`; std::runtime_error if another detector than the default filter made
+  ///   them; otherwise as `RecordingReader`.
   Explainer(const std::filesystem::path& run, const AnyParameters& parameters);
 
   /// Goes on to the next frame. \return false after the last.

@@ -102,6 +102,7 @@ ExitCode explain(const ExplainOptions& options) {
   }
   if (!options.frame && options.track)
     throw std::invalid_argument("give FRAME, in which --track names the corner");
+  explain::with_frames(options.run);
   explain::Explainer explainer(options.run, parameters_of(options.run));
   std::uint64_t frames = 0;
   while (frames <= options.frame.value_or(frames) && explainer.next()) {

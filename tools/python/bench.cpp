@@ -269,7 +269,7 @@ void define(py::module_& module, const Call& call, Request usual, const Do& work
       [call, usual, work](const py::args& values, const py::kwargs& named) {
         Request request = usual;
         PythonCaller caller(read_arguments(call, options_of(request), values, named));
-        return work(std::as_const(request), caller);
+        return py::module_::import("lcs").attr("Answer")(work(std::as_const(request), caller));
       },
       text.c_str());
 }

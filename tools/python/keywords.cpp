@@ -112,7 +112,7 @@ std::string signature_of(const Call& call, const app::Options& options) {
     all.push_back(one);
   }
   if (call.takes_progress) all.push_back(fmt::format("{}: {} = None", kProgress, kProgressType));
-  return fmt::format("{}({}) -> dict", options.command, fmt::join(all, ", "));
+  return fmt::format("{}({}) -> Answer", options.command, fmt::join(all, ", "));
 }
 
 py::object read_arguments(const Call& call, const app::Options& options, const py::args& values,

@@ -27,7 +27,7 @@ from ._core import *
 from ._core import __version__
 
 __all__ = ["SCENARIOS"] + sorted(
-    ["__version__", "score", "simulate"] + [name for name in vars(_core) if name[0] != "_"]
+    ["Answer", "__version__", "score", "simulate"] + [name for name in vars(_core) if name[0] != "_"]
 )
 
 # The program runs suites in processes of its own, and knows where the scenes are.
@@ -35,6 +35,15 @@ _core._use_program(_Path(__file__).parent / "bin" / "lcs")
 
 #: Folder of the project's own scenarios, as `lcs.SCENARIOS / "suite" / "night.yaml"`.
 SCENARIOS: _Path = _Path(_core._shipped_folder("scenarios"))
+
+
+class Answer(dict):
+    """A dict, the result of a command. Jupyter shows its texts and values, and tables to unfold."""
+
+    def _repr_html_(self) -> str:
+        from ._page import html_of
+
+        return "".join(html_of(name, value) for name, value in self.items())
 
 
 def simulate(scenario: Scenario) -> Simulation:

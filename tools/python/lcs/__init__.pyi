@@ -27,7 +27,7 @@ from pathlib import Path as _Path
 from numpy.typing import ArrayLike as _ArrayLike
 import typing
 from typing import Optional as _Optional, Union as _Union
-__all__: list[str] = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Live', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
+__all__: list[str] = ['SCENARIOS', 'Answer', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Live', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
 class Error(Exception):
     """
     An error as the program lcs prints it: the problem, its place, the remedy.
@@ -605,7 +605,11 @@ class Detector:
     @property
     def name(self) -> str:
         ...
-def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '', allow_missing: bool = False) -> dict[str, typing.Any]:
+class Answer(dict[str, typing.Any]):
+    """
+    A dict, the result of a command. Jupyter shows its texts and values, and tables to unfold.
+    """
+def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, metric: str = '', markdown: str = '', pictures_at: str = '', allow_missing: bool = False) -> Answer:
     """
     The differences of two suites, beyond the noise of their seeds (tools/suite/README.md).
 
@@ -622,7 +626,7 @@ def detectors() -> dict[str, typing.Any]:
     """
     The names of the bench's detectors, with a line about each.
     """
-def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, suite: bool = False, worlds: str = '', count: int = 60, family: str = '', out: str = '', formats: list[str] = [], add: bool = False, frames: int = 0, seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', group: str | None = None, filter: str = '', seeds: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, suite: bool = False, worlds: str = '', count: int = 60, family: str = '', out: str = '', formats: list[str] = [], add: bool = False, frames: int = 0, seed: int | None = None, set: collections.abc.Mapping[str, typing.Any] | None = None, jobs: int = 1, shard: str = '', group: str | None = None, filter: str = '', seeds: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Writes a scenario as a sequence that other tools read (tools/sequence/README.md).
 
@@ -632,7 +636,7 @@ def generate(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.P
     Returns a dict: folders; errors, of many; frames (first, last + 1) and notes, of one; messages. The
     same call goes on after it was interrupted.
     """
-def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any] | None = None, out: str | os.PathLike[str] = 'out/kinematics', tolerance: float = 1.0, quick: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any] | None = None, out: str | os.PathLike[str] = 'out/kinematics', tolerance: float = 1.0, quick: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Measures when the motion model holds for a camera and rover (tools/kinematics/README.md).
 
@@ -640,11 +644,11 @@ def kinematics(config: str = '', *, set: collections.abc.Mapping[str, typing.Any
     Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
     NaN without theory) and verdict; text: as the program prints it.
     """
-def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False) -> dict[str, typing.Any]:
+def merge(parts: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False) -> Answer:
     """
     Joins the folders of the parts of a suite (shard). Returns as suite.
     """
-def replay(path: str | os.PathLike[str], *, recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', corners: str = '', fast_threshold: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, beside: list[str] = [], out: str = '', video: bool = False, events: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def replay(path: str | os.PathLike[str], *, recording: collections.abc.Mapping[str, typing.Any] | None = None, ego_motion: str = '', corners: str = '', fast_threshold: str = '', detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, preset: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, beside: list[str] = [], out: str = '', video: bool = False, events: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Runs a detector on a recording (tools/replay/README.md), and writes the folder of lcs replay.
 
@@ -652,7 +656,7 @@ def replay(path: str | os.PathLike[str], *, recording: collections.abc.Mapping[s
     "topics.imu": "/imu"}; lists as text, "319.5,239.5". ego_motion: imu or truth. corners:
     pictures or events. fast_threshold: contrast of a corner, 1 to 254 grey levels, or auto. Returns as run.
     """
-def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, frames: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], recorded: str = '', detections: str = '', video: bool = False, events: bool = False, keep: str = 'all', gzip: bool = False, report: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = None, frames: str = '', set: collections.abc.Mapping[str, typing.Any] | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, beside: list[str] = [], recorded: str = '', detections: str = '', video: bool = False, events: bool = False, keep: str = 'all', gzip: bool = False, report: bool = False, threads: int = 1, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Runs a scenario's file and writes the folder of lcs run, out/SCENARIO if not given.
 
@@ -676,7 +680,7 @@ def simulate(scenario: Scenario) -> Simulation:
         fail.
 
     """
-def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False, all: bool = False, anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, *, group: str | None = None, filter: str = '', jobs: int = 0, worlds: str = '', count: int = 60, family: str = '', seeds: int | None = None, detector: str = '', detector_command: str = '', detector_timeout: float = 30.0, recorded: str = '', detections: str = '', beside: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, keep: str = 'all', shard: str = '', times: str = '', out: str | os.PathLike[str] = 'out/suite', baseline: str = '', allow_missing: bool = False, all: bool = False, anew: bool = False, progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Runs many scenarios, each in a process of its own, as lcs suite does with the options of these names.
 
@@ -695,7 +699,7 @@ def suite(paths: str | os.PathLike[str] | collections.abc.Iterable[str | os.Path
     comparison with the baseline, as of compare; messages.
     Finished runs are kept if it raises or is interrupted, and the same call goes on from there.
     """
-def tune(suites: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, validate: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, keys: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, evaluations: int = 300, seed: int = 1, out: str | os.PathLike[str] = 'out/tune', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> dict[str, typing.Any]:
+def tune(suites: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]], *, validate: str | os.PathLike[str] | collections.abc.Iterable[str | os.PathLike[str]] | None = None, keys: list[str] = [], set: collections.abc.Mapping[str, typing.Any] | None = None, evaluations: int = 300, seed: int = 1, out: str | os.PathLike[str] = 'out/tune', progress: collections.abc.Callable[[int, int], typing.Any] | None = None) -> Answer:
     """
     Learns the filter's parameters from suites of the split train, as lcs tune.
 
@@ -704,7 +708,7 @@ def tune(suites: str | os.PathLike[str] | collections.abc.Iterable[str | os.Path
     and, before and after, objective, f1, false objects and corners a frame; evaluations; record, a text.
     The same call goes on after it was interrupted.
     """
-def world(family: str, seed: int = 1, *, out: str = '', pictures: str = '', sheet: bool = False) -> dict[str, typing.Any]:
+def world(family: str, seed: int = 1, *, out: str = '', pictures: str = '', sheet: bool = False) -> Answer:
     """
     Draws a scenario and its scene from a seed, and writes them (scenes/worlds/README.md).
 
