@@ -43,7 +43,6 @@ std::string escaped(const std::string& words, const std::map<char, std::string>&
 
 /// Words of a cell.
 std::string words_in(const std::string& words, Format format) {
-  static const std::map<char, std::string> markdown{{'|', "\\|"}, {'<', "\\<"}, {'\n', " "}};
   static const std::map<char, std::string> latex{{'&', "\\&"},
                                                  {'%', "\\%"},
                                                  {'$', "\\$"},
@@ -59,7 +58,7 @@ std::string words_in(const std::string& words, Format format) {
                                                  {'^', "\\textasciicircum{}"},
                                                  {'\\', "\\textbackslash{}"}};
   static const std::map<char, std::string> csv{{'"', "\"\""}};
-  if (format == Format::markdown) return escaped(words, markdown);
+  if (format == Format::markdown) return in_markdown(words);
   if (format == Format::latex) return escaped(words, latex);
   if (words.find_first_of(",\"\r\n") == std::string::npos) return words;
   return '"' + escaped(words, csv) + '"';
@@ -180,6 +179,10 @@ Format format_of(std::string_view word) {
   if (found != kFormats.end()) return static_cast<Format>(found - kFormats.begin());
   throw std::invalid_argument(
       fmt::format("--format is '{}'; it takes {}", word, fmt::join(kFormats, ", ")));
+}
+
+std::string in_markdown(const std::string& words) {
+  return escaped(words, {{'|', "\\|"}, {'<', "\\<"}, {'\n', " "}});
 }
 
 std::string table_text(const FigureTable& table, Format format) {

@@ -42,4 +42,7 @@ Format format_of(std::string_view word);
 /// * LaTeX is a tabular, which needs the package booktabs.
 std::string table_text(const FigureTable& table, Format format);
 
+/// Words in one line of Markdown, as in a cell of such a table.
+std::string in_markdown(const std::string& words);
+
 }  // namespace lcs::scoring

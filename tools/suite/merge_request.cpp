@@ -19,6 +19,7 @@ namespace lcs::suite {
 namespace {
 
 namespace fs = std::filesystem;
+using scoring::in_markdown;
 
 /// Scenarios that are listed; the others are counted.
 constexpr std::size_t kMostRemarks = 10;
@@ -31,14 +32,6 @@ std::string bytes_of(const std::string& base64) {
   const auto padding = std::ranges::count(base64, '=');
   bytes.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, size - padding)));
   return bytes;
-}
-
-/// Text in a cell of a table.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find_first_of("|<\n", at)) != text.npos; at += 2) {
-    text[at] == '\n' ? text.replace(at, 1, "  ") : text.insert(at, 1, '\\');
-  }
-  return text;
 }
 
 // ---- The event that grew most
@@ -132,11 +125,11 @@ std::string event_text(const fs::path& folder, const Grown& grown, const std::st
   const int frame = shown ? shown->frame : middle;
   const int was = grown.before ? cost_of(*grown.before) : 0;
   const std::string object =
-      event.object_name.empty() ? "" : fmt::format(" `{}`", cell(event.object_name));
+      event.object_name.empty() ? "" : fmt::format(" `{}`", in_markdown(event.object_name));
   std::string text = fmt::format(
       "\n**The event that grew most**: {}, frames {} to {}: {}{}, {} {} (before: {}).\n\n",
-      cell(grown.run), event.first_frame, event.last_frame, text_of(event.kind).meaning, object,
-      cost_of(event), unit_of(event), was);
+      in_markdown(grown.run), event.first_frame, event.last_frame, text_of(event.kind).meaning,
+      object, cost_of(event), unit_of(event), was);
   text += "| before | after |\n|---|---|\n";
   text += fmt::format(
       "| {} | {} |\n",
@@ -152,8 +145,8 @@ std::string remarks_text(const SuiteVerdict& verdict) {
   std::string text = "\n<details><summary>Scenarios, worst first</summary>\n\n";
   for (std::size_t i = 0; i < std::min(kMostRemarks, verdict.remarks.size()); ++i) {
     const Remark& remark = verdict.remarks[i];
-    text += fmt::format("* `{}` {}: {}\n", cell(remark.scenario), text_of(remark.standings),
-                        cell(fmt::format("{}", fmt::join(remark.reasons, "; "))));
+    text += fmt::format("* `{}` {}: {}\n", in_markdown(remark.scenario), text_of(remark.standings),
+                        in_markdown(fmt::format("{}", fmt::join(remark.reasons, "; "))));
   }
   if (verdict.remarks.size() > kMostRemarks) {
     text += fmt::format("* and {} more\n", verdict.remarks.size() - kMostRemarks);
@@ -176,7 +169,7 @@ void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
   headline.front() = static_cast<char>(std::toupper(headline.front()));
   std::string text =
       fmt::format("### {} {}\n\n{}\n", kLights.at(static_cast<std::size_t>(verdict.light)),
-                  headline, cell(verdict.line));
+                  headline, in_markdown(verdict.line));
   text += fmt::format("\nMeans, with the {:.3g} % interval of each change:\n\n{}",
                       100 * (1 - comparison.level),
                       means_text(comparison, false, scoring::Format::markdown));

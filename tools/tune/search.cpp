@@ -16,6 +16,7 @@
 #include "scenarios/input/message.h"
 #include "scenarios/input/spelling.h"
 #include "tools/files/csv.h"
+#include "tools/scoring/table.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::tune {
@@ -87,13 +88,6 @@ std::string text_of(const Parameters& parameters, const std::string& key, double
 std::string line_of(std::vector<std::string> command) {
   for (std::string& word : command) word = input::one_line(word);
   return suite::shell_line(command);
-}
-
-/// Escapes a text for a cell of a Markdown table.
-std::string cell_of(const std::string& text) {
-  std::string cell;
-  for (const char c : input::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);
-  return cell;
 }
 
 }  // namespace
@@ -272,8 +266,9 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
   for (const Stated& one : stated) {
     for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
       text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n",
-                          cell_of(one.suite), when, worth.objective(), worth.f1,
-                          100 * worth.false_moving, 100 * worth.false_static, worth.false_corners);
+                          scoring::in_markdown(input::one_line(one.suite)), when, worth.objective(),
+                          worth.f1, 100 * worth.false_moving, 100 * worth.false_static,
+                          worth.false_corners);
     }
   }
   text += "\n| parameter | before | after |\n|---|---|---|\n";
