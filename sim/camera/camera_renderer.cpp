@@ -8,11 +8,11 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "sim/base/trial.h"
 #include "sim/camera/gl_context.h"
-#include "sim/camera/round_cylinders.h"
 
 namespace lcs::sim {
 namespace {
@@ -27,9 +27,93 @@ constexpr int kShadowMap = 4096;
 constexpr unsigned kRenderbuffer = 0x8D41, kRgba16 = 0x805B;
 constexpr unsigned kRgba = 0x1908, kUnsignedShort = 0x1403;
 constexpr unsigned kFramebuffer = 0x8D40, kComplete = 0x8CD5;
+constexpr unsigned kCompile = 0x1300, kQuadStrip = 8, kTriangleFan = 6;
 constexpr unsigned kModelview = 0x1700;
 constexpr unsigned kFirstClipPlane = 0x3001;  // MuJoCo uses the one before for reflections
 constexpr unsigned kClipPlanes = 4;
+
+/// Draws cylinders rounder than MuJoCo does, and with fewer triangles.
+///
+/// MuJoCo's cylinder has 28 sides, each cut into 16 quads along the axis. The sides leave the
+/// outline up to .6 % of the radius inside the circle; the cuts serve lamps near the surface alone,
+/// and are most of the time that a scene with many poles takes.
+class RoundCylinders {
+ public:
+  static constexpr int kSides = 64;  ///< outline at most .12 % of the radius inside the circle
+
+  /// Compiles the shape in the current context. \param stacks cuts along the axis: 1 where all
+  /// lights are directional, as light is then even along it.
+  void compile(const GlContext& gl, int stacks);
+
+  /// Lets a scene's cylinders be drawn by this shape: as meshes, scaled by their orientation.
+  /// \param context of the scene, whose lists of meshes give the numbers.
+  void replace(mjvScene& scene, const mjrContext& context) const;
+
+ private:
+  unsigned list_ = 0;  ///< of GL; the context frees it
+};
+
+/// Texture of a geom by the rules of mjr_render: its own, or that of its material; -1: none.
+int texture_of(const mjvGeom& geom, const mjrContext& context) {
+  if (geom.texid >= 0) return geom.texid;
+  return geom.matid < 0 ? -1 : context.mat_texid[mjNTEXROLE * geom.matid + mjTEXROLE_RGB];
+}
+
+void RoundCylinders::compile(const GlContext& gl, int stacks) {
+  auto* const begin = gl.function<void(unsigned)>("glBegin");
+  auto* const end = gl.function<void()>("glEnd");
+  auto* const normal = gl.function<void(float, float, float)>("glNormal3f");
+  auto* const texture = gl.function<void(float, float)>("glTexCoord2f");
+  auto* const vertex = gl.function<void(float, float, float)>("glVertex3f");
+  const auto around = [](int side) {
+    const double angle = 2 * std::numbers::pi * (side % kSides) / kSides;
+    return Eigen::Vector2d(std::cos(angle), std::sin(angle)).cast<float>().eval();
+  };
+  list_ = gl.function<unsigned(int)>("glGenLists")(1);
+  if (list_ == 0) throw std::runtime_error("software GL has no memory for a shape");
+  gl.function<void(unsigned, unsigned)>("glNewList")(list_, kCompile);
+  // texture coordinates as MuJoCo's: around the axis and down; on the ends as seen from above
+  for (int stack = 0; stack < stacks; ++stack) {
+    begin(kQuadStrip);
+    for (int side = 0; side <= kSides; ++side) {
+      const Eigen::Vector2f at = around(side);
+      normal(at.x(), at.y(), 0);
+      for (const int level : {stack + 1, stack}) {
+        const float up = static_cast<float>(level) / static_cast<float>(stacks);
+        texture(static_cast<float>(side) / kSides, 1 - up);
+        vertex(at.x(), at.y(), 2 * up - 1);
+      }
+    }
+    end();
+  }
+  for (const int top : {-1, 1}) {
+    const auto z = static_cast<float>(top);
+    begin(kTriangleFan);
+    normal(0, 0, z);
+    texture(0.5F, 0.5F);
+    vertex(0, 0, z);
+    for (int side = 0; side <= kSides; ++side) {
+      const Eigen::Vector2f at = around(top > 0 ? side : kSides - side);
+      texture(0.5F + 0.5F * at.x(), 0.5F + 0.5F * at.y());
+      vertex(at.x(), at.y(), z);
+    }
+    end();
+  }
+  gl.function<void()>("glEndList")();
+}
+
+void RoundCylinders::replace(mjvScene& scene, const mjrContext& context) const {
+  for (int i = 0; i < scene.ngeom; ++i) {
+    mjvGeom& geom = scene.geoms[i];
+    if (geom.type != mjGEOM_CYLINDER) continue;
+    geom.type = mjGEOM_MESH;
+    // mjr_render calls the list `baseMesh + dataid`
+    geom.dataid = static_cast<int>(list_) - static_cast<int>(context.baseMesh);
+    for (int k = 0; k < 9; ++k) geom.mat[k] *= geom.size[k % 3];
+    const int texture = texture_of(geom, context);
+    geom.texcoord = texture >= 0 && context.textureType[texture] == mjTEXTURE_2D;
+  }
+}
 
 /// Whether light is even on every flat surface, so that it needs no vertices inside.
 bool has_only_directional_lights(const mjModel& m) {
