@@ -14,7 +14,6 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/comparators/detectors.h"
-#include "tools/comparators/epipolar.h"
 #include "tools/comparators/flow_detectors.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"

@@ -1,4 +1,4 @@
-#include "tools/comparators/lookback.h"
+#include "tools/comparators/flow_detectors.h"
 
 #include <gtest/gtest.h>
 

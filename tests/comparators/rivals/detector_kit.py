@@ -8,7 +8,7 @@ import sys
 import cv2
 import numpy as np
 
-BASELINE_S = 0.055  # age of the earlier picture, as in lookback.h
+BASELINE_S = 0.055  # age of the earlier picture, as in flow_detectors.h
 LEAST = 5  # fewest corners of an object, as in rebel_groups.h
 
 
