@@ -1,7 +1,7 @@
 // The measures of the literature, on inputs whose values follow from their definitions. A long test
 // compares them with the libraries (field_measures.sh).
 
-#include "tools/scoring/measures.h"
+#include "tools/scoring/score_movers.h"
 
 #include <gtest/gtest.h>
 

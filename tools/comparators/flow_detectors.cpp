@@ -1,10 +1,8 @@
 #include "tools/comparators/flow_detectors.h"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "filter/kinematics/geometry.h"
 
