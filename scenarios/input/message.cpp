@@ -7,6 +7,8 @@
 #include <new>
 #include <system_error>
 
+#include "scenarios/input/error.h"
+
 namespace lcs::input {
 namespace {
 
@@ -48,6 +50,15 @@ std::string remedy(const std::error_code& error) {
 }
 
 }  // namespace
+
+std::string text_of(const Source& where) {
+  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
+}
+
+Error::Error(const Source& where, const std::string& what_and_remedy)
+    // printable, because a NUL would end the message.
+    : std::runtime_error(printable(where.file.empty() ? what_and_remedy
+                                                      : text_of(where) + ": " + what_and_remedy)) {}
 
 std::string printable(std::string_view text) {
   std::string shown;
