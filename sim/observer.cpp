@@ -6,7 +6,6 @@
 
 #include "sim/base/random.h"
 #include "sim/drive.h"
-#include "sim/events/sampling.h"
 
 namespace lcs::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "sim/events/sampling.h"
+#include "sim/events/event_sensor.h"
 
 namespace lcs::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "sim/events/sampling.h"
+#include "sim/events/event_sensor.h"
 #include "sim/observer.h"
 #include "tests/sim/support.h"
 

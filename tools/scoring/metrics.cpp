@@ -447,7 +447,7 @@ std::vector<Metric> warning_metrics() {
        "(sim/base/shutter.h)"},
       {"coarse_events",
        "frames until which the picture shifts by more than 1 px between two of the 128 instants at "
-       "which events are sampled (sim/events/sampling.h)"},
+       "which events are sampled (sim/events/event_sensor.h)"},
       {"few_corners", "frames with fewer than 10 corners; 0 if not more than half"},
       {"runaway_speed", "frames with a told speed above 70 m/s. Of recordings alone"},
       {"turn_not_told",
