@@ -1,4 +1,4 @@
-#include "tools/replay/motion_check.h"
+#include "tools/replay/playback.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,6 @@
 
 #include "filter/detect/fast.h"
 #include "sim/pictures/media.h"
-#include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 
 namespace lcs::replay {
