@@ -13,7 +13,6 @@
 #include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

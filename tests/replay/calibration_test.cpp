@@ -1,6 +1,6 @@
 // One camera, as the calibrations of several tools state it, and lenses compared with the formulas
 // of their authors.
-#include "tools/replay/motion_tables.h"
+#include "tools/replay/recorded.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

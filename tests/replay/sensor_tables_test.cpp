@@ -1,6 +1,5 @@
 // Tables of an IMU and of times with the columns, separators and units of several tools, and
 // readings that no IMU can have.
-#include "tools/replay/motion_tables.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,6 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

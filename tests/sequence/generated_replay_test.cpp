@@ -12,7 +12,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
-#include "tools/replay/motion_tables.h"
+#include "tools/replay/recorded.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/sequence_folder.h"

@@ -4,7 +4,7 @@
 
 #include "scenarios/input/input_file.h"
 #include "scenarios/input/reader.h"
-#include "tools/replay/motion_tables.h"
+#include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
 
 namespace lcs::replay {

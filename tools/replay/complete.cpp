@@ -6,7 +6,6 @@
 
 #include "scenes/worlds/worlds.h"
 #include "sim/base/rotation.h"
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 #include "tools/sequence/replay_settings.h"
 

@@ -11,7 +11,6 @@
 #include "scenarios/shipped.h"
 #include "tools/files/json_node.h"
 #include "tools/process/child.h"
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 #include "tools/sequence/replay_settings.h"
 

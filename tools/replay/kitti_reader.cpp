@@ -7,7 +7,6 @@
 #include <map>
 #include <span>
 
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

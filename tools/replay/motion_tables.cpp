@@ -1,4 +1,4 @@
-#include "tools/replay/motion_tables.h"
+#include "tools/replay/recorded.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,6 @@
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
-#include "tools/replay/motion_tables.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
