@@ -1,4 +1,4 @@
-#include "sim/camera/camera_renderer.h"
+#include "sim/camera/lens_renderer.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
