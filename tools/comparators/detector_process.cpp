@@ -1,4 +1,4 @@
-#include "tools/comparators/detector_process.h"
+#include "tools/comparators/program.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
