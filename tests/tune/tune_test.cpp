@@ -23,7 +23,6 @@
 #include "tools/files/output_file.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/search.h"
-#include "tools/tune/trials.h"
 
 namespace lcs::tune {
 namespace {

@@ -16,7 +16,6 @@
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/suite/suite_result.h"
-#include "tools/tune/trials.h"
 
 namespace lcs::app {
 namespace {
