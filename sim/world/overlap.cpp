@@ -1,4 +1,4 @@
-#include "sim/world/overlap.h"
+#include "sim/world/watch.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

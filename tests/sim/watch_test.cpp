@@ -8,7 +8,6 @@
 #include <map>
 
 #include "sim/simulation.h"
-#include "sim/world/overlap.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/temporary_folder.h"
