@@ -13,6 +13,12 @@
 
 namespace lcs {
 
+/// The mean circle C_m: mean place and motion of the edges; the radius reaches the outermost edge.
+/// \param group indices into `edges`; at least one, all of one kind.
+/// \param same gives id, trust and age.
+Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
+                   const MotionField& field, const Circle& same = {});
+
 class CircleExpert {
  public:
   CircleExpert(const Intrinsics& camera, const CircleParameters& parameters,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "filter/circles/mean_circle.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
 #include "filter/paper/estimate.h"

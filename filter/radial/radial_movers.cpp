@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "filter/circles/mean_circle.h"
 #include "filter/vectors/refill.h"
 
 namespace lcs {
