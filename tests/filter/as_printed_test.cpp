@@ -8,7 +8,6 @@
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/paper/paper_squares.h"
-#include "filter/paper/tangent.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -1,4 +1,4 @@
-#include "filter/paper/tangent.h"
+#include "filter/paper/paper_squares.h"
 
 #include <gtest/gtest.h>
 
