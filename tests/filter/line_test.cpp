@@ -1,5 +1,5 @@
 #include "filter/line/line.h"
-#include "filter/paper/feedback.h"
+#include "filter/paper/paper_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "filter/paper/feedback.h"
 #include "filter/paper/paper_circles.h"
 #include "filter/paper/paper_edges.h"
+#include "filter/paper/paper_filter.h"
 #include "filter/paper/paper_squares.h"
 #include "tests/filter/world.h"
 
