@@ -211,16 +211,21 @@ void write_how_made(const RunRequest& request, const scenario::Scenario& scenari
                       files::provenance_of(std::move(facts)));
 }
 
-/// The corners on the pictures of the run's events; null for a run that `lcs explain` cannot
-/// explain.
+/// The corners on the pictures of the run's events; null for a run that cannot be explained.
 files::Json explained(const RunRequest& request, const Watching& own,
                       const std::filesystem::path& folder, Caller& caller) {
   const AnyParameters parameters = bench::filter_parameters(own.scenario);
   const bool is_plain = own.spec.detector.layered && std::holds_alternative<Parameters>(parameters);
   if (!is_plain || request.keep != output::Keep::all) return nullptr;
-  return explain::explained_views(folder, parameters,
-                                  scoring::read_events(folder / scoring::kEventsFile),
-                                  [&] { caller.check(); });
+  const auto events = scoring::read_events(folder / scoring::kEventsFile);
+  try {
+    return explain::explained_views(folder, parameters, events, [&] { caller.check(); });
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // the run itself is whole
+    caller.warn({fmt::format("the report explains no corners: {}", error.what())});
+    return nullptr;
+  }
 }
 
 /// Writes the report page of the run as a suite with a single run.

@@ -43,7 +43,7 @@ std::string kind_of(const Explained& said, std::size_t corner) {
   if (kind != scoring::Difficulty::tracked || sightings < 2) return word(kKinds, kind);
   const Sighting &now = history[sightings - 1], &was = history[sightings - 2];
   if (was.frame + 1 != now.frame || was.truth.label == sim::Label::none) return word(kKinds, kind);
-  const double off_px = (was.why.place_px() + was.truth.motion_px - now.why.place_px()).norm();
+  const double off_px = (was.place_px + was.truth.motion_px - now.place_px).norm();
   constexpr double kFollowed_px = 3;  // the radius of FAST's circle
   if (off_px > kFollowed_px) {
     return fmt::format("a wrong match: the point that it followed is {:.1f} px away", off_px);
@@ -51,7 +51,7 @@ std::string kind_of(const Explained& said, std::size_t corner) {
   const auto static_px = [&](const EgoMotion& motion) {
     const MotionField field(*said.run.camera, motion, said.field);
     const double ratio = field.reference_depth_m() / was.truth.depth_m;
-    return field.translated(field.rotated(was.why.place_px()), field.advanced_ratio(ratio));
+    return field.translated(field.rotated(was.place_px), field.advanced_ratio(ratio));
   };
   const double told_px = (static_px(said.frame.motion) - static_px(said.frame.true_motion)).norm();
   constexpr double kDistinct_px = 1;  // from which on the truth calls a motion a rebel's
@@ -74,14 +74,13 @@ std::string heading(const Explained& said, std::size_t i) {
 }
 
 /// The places of corners that are seen once, and have the m of this one (19).
-std::vector<Vec2> told_px(const Explained& said, const Sighting& now) {
+std::vector<Vec2> told_px(const Explained& said, const Explanation& why) {
   std::vector<Vec2> places;
-  for (const auto& [track, sightings] : said.tracks) {
-    const Sighting& other = sightings.back();
-    const auto& [seen, is] = std::tie(other.why.seen, now.why.seen);
-    if (is[kSightings] < 2 && is[kBelief] != 0 && other.frame == now.frame &&
-        seen[kSightings] >= 2 && seen[kBelief] == is[kBelief]) {
-      places.push_back(other.why.place_px());
+  for (const std::optional<Explanation>& other : said.why) {
+    const auto& is = why.seen;
+    if (other && is[kSightings] < 2 && is[kBelief] != 0 && other->seen[kSightings] >= 2 &&
+        other->seen[kBelief] == is[kBelief]) {
+      places.push_back(other->place_px());
     }
   }
   return places;
@@ -92,8 +91,8 @@ int rule_of(Reason reason) {
 }
 
 /// A line for each number, with its equation.
-std::string numbers_text(const Explained& said, const Sighting& now) {
-  const Explanation& why = now.why;
+std::string numbers_text(const Explained& said, std::size_t i) {
+  const Explanation& why = said.why[i].value();
   std::string text = fmt::format("track    {}, age {} frames\n", why.track, why.age);
   for (const auto& [equation, name, values] : numbers_of(why)) {
     text +=
@@ -107,10 +106,10 @@ std::string numbers_text(const Explained& said, const Sighting& now) {
     text += fmt::format("(19)     k = {:.4f}, tanh(m/2) = {:+.4f} of {}\n", weight, belief,
                         text_of(said.place_px(static_cast<std::size_t>(corner))));
   }
-  for (const Vec2& place : told_px(said, now)) {
+  for (const Vec2& place : told_px(said, why)) {
     text += fmt::format("(19)     corner with this m = {}\n", text_of(place));
   }
-  const Reason reason = said.frame.reasons[now.corner];
+  const Reason reason = said.frame.reasons[i];
   return text + fmt::format("({})     {}\n", rule_of(reason), text_of(reason).word);
 }
 
@@ -121,10 +120,9 @@ files::Json xy(const Vec2& x) {
 }  // namespace
 
 std::string text_of(const Explained& said, std::size_t corner) {
-  const std::span<const Sighting> history = said.history(corner);
   std::string text = heading(said, corner);
-  if (!history.empty()) text += numbers_text(said, history.back());
-  return text;  // without a track its reason says why it was left out
+  if (said.why[corner]) text += numbers_text(said, corner);
+  return text;  // the reason of a corner that was left out says why
 }
 
 std::string verdict_text(const Explained& said, const Sighting& one) {
@@ -137,8 +135,8 @@ std::string history_text(const Explained& said, std::size_t corner) {
   std::string text = "frame  miss static  miss moving       L       m  verdict\n";
   for (const Sighting& one : history) {
     text += fmt::format("{:5}  {:>11}  {:>11}  {:6.2f}  {:6.2f}  {}\n", one.frame,
-                        text_of(one.why.miss_px(kStaticX)), text_of(one.why.miss_px(kMovingX)),
-                        one.why.seen[kLogOdds], one.why.seen[kBelief], verdict_text(said, one));
+                        text_of(one.miss_static_px), text_of(one.miss_moving_px), one.log_odds,
+                        one.belief, verdict_text(said, one));
   }
   return text;
 }
@@ -155,9 +153,8 @@ files::Json json_of(const Explained& said, std::size_t i) {
                    {"object", truth.object},
                    {"outcome", word(kOutcomes, said.outcomes[i])},
                    {"kind", kind_of(said, i)}};
-  const std::span<const Sighting> history = said.history(i);
-  if (history.empty()) return json;
-  const Explanation& why = history.back().why;
+  if (!said.why[i]) return json;
+  const Explanation& why = *said.why[i];
   json["track"] = why.track;
   json["age"] = why.age;
   json["assigned"] = why.assigned;
@@ -169,13 +166,13 @@ files::Json json_of(const Explained& said, std::size_t i) {
   for (const auto& [corner, weight, belief] : why.voices) {
     json["neighbours"].push_back({{"corner", corner}, {"k", weight}, {"tanh(m/2)", belief}});
   }
-  for (const Sighting& one : history) {
+  for (const Sighting& one : said.history(i)) {
     json["history"].push_back({{"frame", one.frame},
-                               {"place_px", xy(one.why.place_px())},
-                               {"miss_static_px", one.why.miss_px(kStaticX)},
-                               {"miss_moving_px", one.why.miss_px(kMovingX)},
-                               {"L", one.why.seen[kLogOdds]},
-                               {"m", one.why.seen[kBelief]},
+                               {"place_px", xy(one.place_px)},
+                               {"miss_static_px", one.miss_static_px},
+                               {"miss_moving_px", one.miss_moving_px},
+                               {"L", one.log_odds},
+                               {"m", one.belief},
                                {"verdict", word(recording::kVerdicts, one.verdict)},
                                {"object", one.truth.object}});
   }

@@ -24,19 +24,18 @@ files::Json prediction(const Explanation& why, TrackColumn x) {
 files::Json corner_json(const Explained& said, std::size_t corner) {
   const Vec2 place = said.place_px(corner);
   files::Json json{{"x", place.x()}, {"y", place.y()}, {"text", text_of(said, corner)}};
-  const std::span<const Sighting> history = said.history(corner);
-  if (history.empty()) return json;
-  const Explanation& why = history.back().why;
+  if (!said.why[corner]) return json;
+  const Explanation& why = *said.why[corner];
   json["static"] = prediction(why, kStaticX);
   json["moving"] = prediction(why, kMovingX);
   for (const auto& [neighbour, weight, belief] : why.voices) {
     const Vec2 at = said.place_px(static_cast<std::size_t>(neighbour));
     json["neighbours"].push_back({at.x(), at.y(), rounded(weight), rounded(belief)});
   }
-  for (const Sighting& one : history) {
-    json["history"].push_back({one.frame, rounded(one.why.miss_px(kStaticX)),
-                               rounded(one.why.miss_px(kMovingX)), rounded(one.why.seen[kLogOdds]),
-                               rounded(one.why.seen[kBelief]), verdict_text(said, one)});
+  for (const Sighting& one : said.history(corner)) {
+    json["history"].push_back({one.frame, rounded(one.miss_static_px), rounded(one.miss_moving_px),
+                               rounded(one.log_odds), rounded(one.belief),
+                               verdict_text(said, one)});
   }
   return json;
 }

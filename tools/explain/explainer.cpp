@@ -43,8 +43,8 @@ const std::filesystem::path& with_frames(const std::filesystem::path& run) {
 }
 
 std::span<const Sighting> Explained::history(std::size_t corner) const {
-  const Id track = track_of.at(corner);
-  return track == 0 ? std::span<const Sighting>() : tracks.at(track);
+  const std::optional<Explanation>& one = why.at(corner);
+  return one ? tracks.at(one->track) : std::span<const Sighting>();
 }
 
 Explainer::Explainer(const std::filesystem::path& run, const AnyParameters& parameters)
@@ -62,13 +62,15 @@ bool Explainer::next() {
   if (!reader_.next(frame)) return false;
   step(frame, run_, detector_);
   said_.outcomes = scorer_.add(frame).outcomes;
-  said_.track_of.assign(frame.corners_px.size(), 0);
+  said_.why.clear();
   for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-    const auto why = detector_.filter().plain()->explain(static_cast<int>(i));
-    if (!why) continue;
-    said_.track_of[i] = why->track;
-    said_.tracks[why->track].push_back(
-        {frame.index, i, frame.verdicts[i], frame.corner_truth[i], *why});
+    said_.why.push_back(detector_.filter().plain()->explain(static_cast<int>(i)));
+    if (const auto& why = said_.why.back()) {
+      said_.tracks[why->track].push_back({frame.index, frame.verdicts[i], frame.corner_truth[i],
+                                          why->place_px(), why->miss_px(kStaticX),
+                                          why->miss_px(kMovingX), why->seen[kLogOdds],
+                                          why->seen[kBelief]});
+    }
   }
   std::erase_if(said_.tracks, [&](const auto& track) {
     return track.second.back().frame + coast_frames_ < frame.index;  // it has ended

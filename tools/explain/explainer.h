@@ -8,7 +8,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,10 +24,11 @@ namespace lcs::explain {
 /// A corner of a track in a frame.
 struct Sighting {
   int frame;
-  std::size_t corner;  ///< index in the frame
   Verdict verdict;
   sim::CornerTruth truth;
-  Explanation why;
+  Vec2 place_px;
+  double miss_static_px, miss_moving_px;  ///< distances from its predictions; NaN without one
+  float log_odds, belief;                 ///< L (15) and m (18)
 };
 
 /// A frame of the run, and all that explains its corners.
@@ -37,10 +38,10 @@ struct Explained {
   recording::FrameRecord frame;
   std::vector<scoring::CornerOutcome> outcomes;  ///< of its corners
   std::map<Id, std::vector<Sighting>> tracks;    ///< that live then, with their sightings
-  std::vector<Id> track_of;  ///< of its corners; 0 if the filter has left the corner out
+  std::vector<std::optional<Explanation>> why;   ///< of its corners; absent if left out
 
   Vec2 place_px(std::size_t corner) const { return frame.corners_px.at(corner).cast<double>(); }
-  /// The sightings of the corner's track up to this frame; empty if it has no track.
+  /// The sightings of the corner's track up to this frame; empty if the corner was left out.
   std::span<const Sighting> history(std::size_t corner) const;
 };
 
@@ -81,10 +82,6 @@ std::string verdict_text(const Explained& said, const Sighting& one);
 
 /// The same numbers; those that are not there are null.
 nlohmann::ordered_json json_of(const Explained& said, std::size_t corner);
-
-/// The surroundings of the corner with its predictions and neighbours; below, its history.
-/// \param corner has a track. \param image of the frame, BGR.
-cv::Mat3b picture_of(const Explained& said, std::size_t corner, const cv::Mat3b& image);
 
 /// All corners that the pictures of these events mark, for the page of a run: by the number of the
 /// frame a list of {x, y, text} with, for a corner on a track, its predictions `static` and

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tools/bench/bench.h"
@@ -15,10 +17,13 @@
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
 #include "tools/output/frame_pictures.h"
+#include "tools/output/panels.h"
 #include "tools/sequence/png.h"
 
 namespace lcs::tools {
 namespace {
+
+namespace colour = output::colour;
 
 struct ExplainOptions {
   std::string run;                     ///< folder
@@ -64,10 +69,68 @@ std::size_t corner_at(const Vec2& place_px, const recording::FrameRecord& frame)
 /// The corner that is asked for. \throws std::runtime_error if there is none.
 std::size_t corner_of(const ExplainOptions& options, const explain::Explained& said) {
   if (options.x_px) return corner_at({*options.x_px, *options.y_px}, said.frame);
-  const auto found = std::ranges::find(said.track_of, options.track.value());
-  if (found != said.track_of.end()) return static_cast<std::size_t>(found - said.track_of.begin());
+  const auto found = std::ranges::find_if(
+      said.why, [&](const auto& why) { return why && why->track == options.track; });
+  if (found != said.why.end()) return static_cast<std::size_t>(found - said.why.begin());
   throw std::runtime_error(
       fmt::format("no corner of the frame is on track {}; give X and Y", *options.track));
+}
+
+constexpr int kWidth_px = 768, kHeight_px = 576, kPlot_px = 180;
+const cv::Scalar kGrey = cv::Scalar::all(120), kWhite = cv::Scalar::all(255);
+
+/// The values of the history as dots over its frames.
+void plot(std::span<const explain::Sighting> history, cv::Mat3b strip) {
+  constexpr double kMost = 12;  // ends of the strip, at which values are cut off
+  const int first = history.front().frame, frames = history.back().frame - first;
+  const auto dot = [&](int frame, double value, const cv::Scalar& ink) {
+    const double x = 8 + (strip.cols - 16.0) * (frame - first) / std::max(1, frames);
+    const double y = (0.5 - 0.45 * std::clamp(value / kMost, -1.0, 1.0)) * strip.rows;
+    if (!std::isnan(value)) cv::circle(strip, {cvRound(x), cvRound(y)}, 3, ink, cv::FILLED);
+  };
+  cv::line(strip, {0, strip.rows / 2}, {strip.cols, strip.rows / 2}, kGrey);
+  cv::putText(strip, "-12 to 12: L grey, m white; misses in px, static blue, moving red",
+              {8, strip.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, kWhite, 1, cv::LINE_AA);
+  for (const explain::Sighting& one : history) {
+    dot(one.frame, one.miss_static_px, colour::kNormalEdge);
+    dot(one.frame, one.miss_moving_px, colour::kRebel);
+    dot(one.frame, double{one.log_odds}, kGrey);
+    dot(one.frame, double{one.belief}, kWhite);
+  }
+}
+
+/// The surroundings of the corner with its predictions and neighbours; below, its history.
+/// \param corner has a track. \param image of the frame, BGR.
+cv::Mat3b picture_of(const explain::Explained& said, std::size_t corner, const cv::Mat3b& image) {
+  constexpr int kZoom = 6;
+  const Explanation& now = said.why[corner].value();
+  const cv::Point middle(kWidth_px / 2, kHeight_px / 2);
+  const auto at = [&](const Vec2& x) {
+    const Vec2 off = kZoom * (x - now.place_px());
+    return middle + cv::Point(cvRound(off.x()), cvRound(off.y()));
+  };
+  cv::Mat3b picture(kHeight_px + kPlot_px, kWidth_px, cv::Vec3b::all(0));
+  cv::Mat3b scene = picture.rowRange(0, kHeight_px), part;
+  const cv::Point2d centre(now.place_px().x(), now.place_px().y());
+  cv::getRectSubPix(image, scene.size() / kZoom, centre, part);
+  cv::resize(part, scene, scene.size(), 0, 0, cv::INTER_CUBIC);
+  for (const auto& [neighbour, weight, belief] : now.voices) {
+    const double sure = std::abs(double{belief});
+    const cv::Scalar ink = belief > 0 ? colour::kRebel : colour::kNormalEdge;
+    cv::line(scene, middle, at(said.place_px(static_cast<std::size_t>(neighbour))),
+             sure * ink + (1 - sure) * kGrey, 1 + cvRound(5 * weight), cv::LINE_AA);
+  }
+  const auto cross = [&](TrackColumn x, const cv::Scalar& ink) {
+    if (std::isnan(now.miss_px(x))) return;
+    for (const auto& [each, width] : {std::pair(kWhite, 5), std::pair(ink, 2)}) {
+      cv::drawMarker(scene, at(now.predicted_px(x)), each, cv::MARKER_TILTED_CROSS, 16, width);
+    }
+  };
+  cv::circle(scene, middle, 7, kWhite, 2, cv::LINE_AA);
+  cross(kStaticX, colour::kNormalEdge);
+  cross(kMovingX, colour::kRebel);
+  plot(said.history(corner), picture.rowRange(kHeight_px, picture.rows));
+  return picture;
 }
 
 void write_picture(const ExplainOptions& options, const explain::Explained& said,
@@ -121,7 +184,7 @@ ExitCode explain(const ExplainOptions& options) {
     return kFine;
   }
   const std::size_t corner = corner_of(options, said);
-  if (!options.picture.empty() && said.track_of[corner] != 0) write_picture(options, said, corner);
+  if (!options.picture.empty() && said.why[corner]) write_picture(options, said, corner);
   print_out("{}", options.json ? json_of(said, corner).dump() + "\n"
                                : text_of(said, corner) + history_text(said, corner));
   return kFine;

@@ -319,6 +319,13 @@ function historyText(corner) {
     .map((row) => [5, 11, 11, 6, 6, 0].map((width, i) => row[i].padStart(width)).join('  ') + '\n').join('');
 }
 
+/** The command that explains a corner; a run that kept no frames is made again for it. */
+function explainCommand(run, frame, x, y) {
+  const folder = !run.has_frames ? 'out/explained' : data.is_run ? '.' : run.folder;
+  const made = run.has_frames ? '' : `${run.command} --no-video --out ${folder} && `;
+  return commandLine(`${made}lcs explain ${folder} ${frame} ${x} ${y}`);
+}
+
 /** The explanation of the corner at a click on a picture, and the command for it in the folder of the page. */
 function explainAt(run, view, click) {
   const scale = 2 * view.half_width / click.target.clientWidth;
@@ -327,7 +334,7 @@ function explainAt(run, view, click) {
   const near = ((data.explained || {})[view.frame] || []).filter((corner) => off(corner) < Math.max(3, 8 * scale));
   const corner = near.sort((a, b) => off(a) - off(b))[0];
   const at = corner || { x: x.toFixed(1), y: y.toFixed(1) };
-  const command = commandLine(`lcs explain ${data.is_run ? '.' : run.folder} ${view.frame} ${at.x} ${at.y}`);
+  const command = explainCommand(run, view.frame, at.x, at.y);
   return corner ? el('div', { class: 'explained' }, corner.history ? el('div', null, surroundings(corner, view), historyPlot(corner)) : null,
     el('pre', null, corner.text + (corner.history ? historyText(corner) : '')), command) : command;
 }

@@ -17,6 +17,7 @@
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
 #include "tools/output/video.h"
+#include "tools/recording/recording_io.h"
 #include "tools/report/page_writer.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
@@ -222,6 +223,7 @@ files::Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                       {"criteria", suite::criteria_json(run)},
                       {"warnings", recording::lines_of(run.warnings)},
                       {"folder", run.folder.generic_string()},
+                      {"has_frames", false},
                       {"metrics", files::Json::object()},
                       {"frames", nullptr},
                       {"events", nullptr},
@@ -233,6 +235,7 @@ files::Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   }
   if (run.folder.empty()) return json;
   const fs::path folder = suite.folder / run.folder;
+  json["has_frames"] = fs::exists(recording::stored(folder, recording::kLayersFile));
   json["frames"] = frames_in(folder);
   const Events events = events_in(folder);
   if (events) {
