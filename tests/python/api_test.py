@@ -476,7 +476,7 @@ class Filters(unittest.TestCase):
             self.assertAlmostEqual(why["numbers"]["m"], odds, delta=1e-6)
             if "sum of k" in why["numbers"]:
                 told += 1
-                weights = sum(k for _, k, _ in why["neighbours"])
+                weights = sum(one["k"] for one in why["neighbours"])
                 self.assertAlmostEqual(why["numbers"]["sum of k"], weights, delta=1e-4)
         self.assertGreater(told, 20)
         self.assertIsNone(own.explain(len(result.log_odds)))

@@ -141,6 +141,18 @@ std::string history_text(const Explained& said, std::size_t corner) {
   return text;
 }
 
+files::Json json_of(const Explanation& why) {
+  files::Json json{{"track", why.track}, {"age", why.age}, {"assigned", why.assigned}};
+  for (const auto& [equation, name, values] : numbers_of(why)) {
+    json["numbers"][name] = values.size() == 1 ? files::Json(values[0]) : files::Json(values);
+  }
+  json["neighbours"] = files::Json::array();
+  for (const auto& [corner, weight, belief] : why.voices) {
+    json["neighbours"].push_back({{"corner", corner}, {"k", weight}, {"tanh(m/2)", belief}});
+  }
+  return json;
+}
+
 files::Json json_of(const Explained& said, std::size_t i) {
   const auto& [frame, truth] = std::tie(said.frame, said.frame.corner_truth[i]);
   files::Json json{{"frame", frame.index},
@@ -154,18 +166,8 @@ files::Json json_of(const Explained& said, std::size_t i) {
                    {"outcome", word(kOutcomes, said.outcomes[i])},
                    {"kind", kind_of(said, i)}};
   if (!said.why[i]) return json;
-  const Explanation& why = *said.why[i];
-  json["track"] = why.track;
-  json["age"] = why.age;
-  json["assigned"] = why.assigned;
+  json.update(json_of(*said.why[i]));
   json["rule"] = rule_of(frame.reasons[i]);
-  for (const auto& [equation, name, values] : numbers_of(why)) {
-    json["numbers"][name] = values.size() == 1 ? files::Json(values[0]) : files::Json(values);
-  }
-  json["neighbours"] = files::Json::array();
-  for (const auto& [corner, weight, belief] : why.voices) {
-    json["neighbours"].push_back({{"corner", corner}, {"k", weight}, {"tanh(m/2)", belief}});
-  }
   for (const Sighting& one : said.history(i)) {
     json["history"].push_back({{"frame", one.frame},
                                {"place_px", xy(one.place_px)},

@@ -59,7 +59,9 @@ files::Json explained_views(const std::filesystem::path& run, const AnyParameter
   std::map<int, std::vector<const scoring::EventView*>> views;  // by frame
   for (const scoring::ScoredEvent& event : events) {
     if (family_of(event.kind) == scoring::EventFamily::squares) continue;  // marks no corners
-    for (const scoring::EventView& view : event.views) views[view.frame].push_back(&view);
+    for (const scoring::EventView& view : event.views) {
+      if (!view.jpeg_base64.empty()) views[view.frame].push_back(&view);
+    }
   }
   files::Json all = files::Json::object();
   if (views.empty()) return all;

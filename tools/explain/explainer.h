@@ -80,16 +80,20 @@ std::string history_text(const Explained& said, std::size_t corner);
 /// The last column of that table: the verdict, and the object that the corner was on.
 std::string verdict_text(const Explained& said, const Sighting& one);
 
-/// The same numbers; those that are not there are null.
+/// All numbers of a corner's own; those that are not there are null.
+nlohmann::ordered_json json_of(const Explanation& why);
+/// The same, with the verdict, the truth and the history.
 nlohmann::ordered_json json_of(const Explained& said, std::size_t corner);
 
-/// All corners that the pictures of these events mark, for the page of a run: by the number of the
-/// frame a list of {x, y, text} with, for a corner on a track, its predictions `static` and
-/// `moving`
-/// ([x, y], null without one), `neighbours` ([x, y, k, tanh(m/2)] each) and `history` ([frame, miss
-/// of the static and of the moving prediction in px, L, m, verdict] each). Stops after
-/// `kMostBytes`. \param check called for each frame; an exception of it ends the work. \throws as
-/// `Explainer`
+/// All corners that the pictures of these events mark, for the page of a run. By the number of the
+/// frame a list of {x, y, text}; a corner on a track also has
+/// - `static` and `moving`: its predictions, [x, y] in pixels, null without one,
+/// - `neighbours`: [x, y, k, tanh(m/2)] of each,
+/// - `history`: [frame, miss of the static and of the moving prediction in pixels, L, m, verdict]
+///   of each sighting.
+/// It stops after `kMostBytes`.
+/// \param check called for each frame; its exceptions end the work.
+/// \throws as `Explainer`
 nlohmann::ordered_json explained_views(const std::filesystem::path& run,
                                        const AnyParameters& parameters,
                                        const std::vector<scoring::ScoredEvent>& events,

@@ -2,12 +2,13 @@
 
 #include <pybind11/stl.h>
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "filter/detect/gap_picture.h"
-#include "filter/edges/explanation.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/timed.h"
+#include "tools/explain/explainer.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
 #include "tools/recording/box.h"
@@ -59,23 +60,13 @@ std::shared_ptr<Result> step(PictureFilter& own, const ArrayLike& corners, const
 }
 
 /// The numbers behind a verdict of the last frame, as `lcs explain --json` names them.
-py::object explain(const PictureFilter& own, int corner) {
+py::object explained(const PictureFilter& own, int corner) {
   const Filter* plain = own.filter.plain();
   if (plain == nullptr)
     throw std::invalid_argument("only the preset default explains its verdicts");
   const std::optional<Explanation> why = plain->explain(corner);
   if (!why) return py::none();
-  py::dict numbers;
-  for (const auto& [equation, name, values] : numbers_of(*why)) {
-    numbers[name] = values.size() == 1 ? py::object(py::float_(values[0])) : py::cast(values);
-  }
-  py::list neighbours;
-  for (const Voice& voice : why->voices) {
-    neighbours.append(py::make_tuple(voice.corner, voice.weight, voice.said));
-  }
-  return py::dict(py::arg("track") = why->track, py::arg("age") = why->age,
-                  py::arg("assigned") = why->assigned, py::arg("numbers") = numbers,
-                  py::arg("neighbours") = neighbours);
+  return py::module_::import("json").attr("loads")(explain::json_of(*why).dump());
 }
 
 /// A view of a list of one-byte enumerators. \param list a member of `FrameResult`.
@@ -191,10 +182,10 @@ found only with pictures, and only by the preset default.
 Raises TypeError or ValueError for arrays of another type or shape, and then ignores the frame.
 Numbers that are not finite or out of range never raise: they are left out, see diagnostics.)")
       .def(
-          "explain", &explain, py::arg("corner"),
+          "explain", &explained, py::arg("corner"),
           R"(The numbers behind the verdict on a corner of the last frame, by its index: track, age,
 assigned (the track that it was assigned to, 0: none), numbers (of MODEL.md, by name and unit) and
-neighbours (corner, k, tanh(m/2)). None for a corner that the filter has left out, or the frame lacks.
+neighbours (corner, k and tanh(m/2) each). None for a corner that the filter has left out, or the frame lacks.
 Raises ValueError with the presets lab and cars.)")
       .def_property_readonly(
           "diagnostics", [](const PictureFilter& f) { return f.filter.diagnostics().lines(); },

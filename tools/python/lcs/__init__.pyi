@@ -487,7 +487,7 @@ class Filter:
         """
         The numbers behind the verdict on a corner of the last frame, by its index: track, age,
         assigned (the track that it was assigned to, 0: none), numbers (of MODEL.md, by name and unit) and
-        neighbours (corner, k, tanh(m/2)). None for a corner that the filter has left out, or the frame lacks.
+        neighbours (corner, k and tanh(m/2) each). None for a corner that the filter has left out, or the frame lacks.
         Raises ValueError with the presets lab and cars.
         """
     def step(self, corners: numpy.typing.ArrayLike, motion: Motion, signatures: numpy.typing.ArrayLike | None = None, *, picture: numpy.typing.ArrayLike | None = None) -> Result:
