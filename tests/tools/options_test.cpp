@@ -203,6 +203,29 @@ TEST(Help, EndsWithoutAWordWhereItsReaderHasEnough) {
   EXPECT_EQ(read(folder.path() / "said"), "");
 }
 
+TEST(Help, HasEveryTextOfTheFileOfTexts) {
+  std::istringstream lines(read(std::filesystem::path(LCS_SOURCE_DIR) / "tools/app/options.txt"));
+  std::map<std::string, std::vector<std::string>> texts;  // by command
+  std::string command;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) command = line.substr(1, line.size() - 2);
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) texts[command].push_back(line.substr(colon + 2));
+  }
+  std::string all;
+  for (const auto& [name, own] : texts) {
+    if (name == "*") continue;
+    const CommandResult help = run_lcs({name, "--help"}, {});
+    EXPECT_EQ(help.exit_code, 0) << name;
+    for (const std::string& text : own) {
+      EXPECT_NE(help.out.find(text), std::string::npos) << name << ": " << text;
+    }
+    all += help.out;
+  }
+  EXPECT_GT(texts.size(), 10);
+  for (const std::string& text : texts["*"]) EXPECT_NE(all.find(text), std::string::npos) << text;
+}
+
 TEST(Scenarios, ThatAreMisspeltAreSuggested) {
   const TemporaryFolder folder;
   const CommandResult result = run_lcs({"run", "crosing"}, {.folder = folder.path()});

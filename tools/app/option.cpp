@@ -2,9 +2,44 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <stdexcept>
+#include <string_view>
 
 namespace lcs::app {
+
+/// options.txt, embedded in the program.
+extern const std::string_view kOptionTexts;
+
+namespace {
+
+using TextOf = std::map<std::pair<std::string, std::string>, std::string>;
+
+/// Of sections "[command]" with lines "name: text", by command and name.
+TextOf parsed(const std::string& file) {
+  TextOf texts;
+  std::istringstream lines(file);
+  std::string command;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with('[')) command = line.substr(1, line.size() - 2);
+    if (colon != std::string::npos) {
+      texts[{command, line.substr(0, colon)}] = line.substr(colon + 2);
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+const std::string& Options::about(const std::string& name) const {
+  static const TextOf kTexts = parsed(std::string(kOptionTexts));
+  for (const std::string& of : {command, std::string("*")}) {
+    if (const auto found = kTexts.find({of, name}); found != kTexts.end()) return found->second;
+  }
+  throw std::logic_error("options.txt has no text for " + name + " of " + command);
+}
+
 std::string Option::keyword() const {
   if (more.keyword) return *more.keyword;
   std::string word = name.substr(is_negative() ? 5 : name.find_first_not_of('-'));
@@ -21,27 +56,11 @@ std::pair<std::string, std::string> key_and_value(const std::string& setting) {
   return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
-void Options::add_scenario(std::string& scenario) {
-  add("SCENARIO", "", &scenario,
-      "The scenario: a YAML file, or the name of one of the project, as night",
-      {.is_required = true, .kind = Option::Kind::path});
-}
-
-void Options::add_set(Texts& sets, const std::string& about) {
-  add("--set", "KEY=VALUE", &sets, about + "; may be repeated", {.kind = Option::Kind::settings});
-}
-
 void Options::add_out(std::string& out, const std::string& otherwise) {
   // In Python an empty one is a text, since a path cannot be empty.
   const Option::Kind kind = out.empty() ? Option::Kind::text : Option::Kind::path;
-  add("--out", "DIR", &out, "Folder for the results; " + otherwise + " if not given",
-      {.is_output = true, .kind = kind});
-}
-
-void Options::add_force(bool& force) {
-  add("--force", "", &force,
-      "Replace a file of the same name that lcs did not write, or that was edited since",
-      {.is_output = true});
+  add_with_text("--out", "DIR", &out, "Folder for the results; " + otherwise + " if not given",
+                {.is_output = true, .kind = kind});
 }
 
 Texts words_of(const Options& options, const Options& usual) {

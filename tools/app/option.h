@@ -74,23 +74,34 @@ class Options : public std::vector<Option> {
   std::string command;  ///< its name
 
   /// \param member a bool, an int, a seed, a double, a text or texts, or an optional of one.
+  /// \param about the help text.
   template <class T>
-  void add(const std::string& name, const std::string& type, T* member, const std::string& about,
-           Option::More more = {});
+  void add_with_text(const std::string& name, const std::string& type, T* member,
+                     const std::string& about, Option::More more = {});
+  /// The same with the help text of options.txt.
+  template <class T>
+  void add(const std::string& name, const std::string& type, T* member, Option::More more = {}) {
+    add_with_text(name, type, member, about(name), std::move(more));
+  }
+  /// The help text of options.txt for an option of this command, else of `*`, several commands.
+  /// \throws std::logic_error if there is none.
+  const std::string& about(const std::string& name) const;
 
   /// \name Rows of several commands
   ///@{
-  void add_scenario(std::string& scenario);
+  void add_scenario(std::string& scenario) {
+    add("SCENARIO", "", &scenario, {.is_required = true, .kind = Option::Kind::path});
+  }
   /// \param seed may be an optional.
   template <class Seed>
-  void add_seed(Seed& seed, const std::string& about = "Seed, instead of the scenario's") {
-    add("--seed", "N", &seed, about);
+  void add_seed(Seed& seed) {
+    add("--seed", "N", &seed);
   }
-  void add_set(Texts& sets, const std::string& about);
+  void add_set(Texts& sets) { add("--set", "KEY=VALUE", &sets, {.kind = Option::Kind::settings}); }
   /// \param otherwise the default folder, named in the help.
   void add_out(std::string& out, const std::string& otherwise);
-  void add_force(bool& force);
-  void add_quiet(bool& quiet) { add("--quiet", "", &quiet, "Print only errors and warnings"); }
+  void add_force(bool& force) { add("--force", "", &force, {.is_output = true}); }
+  void add_quiet(bool& quiet) { add("--quiet", "", &quiet); }
   ///@}
 };
 
@@ -165,8 +176,8 @@ Texts words_in(const T& value) {
 }
 
 template <class T>
-void Options::add(const std::string& name, const std::string& type, T* member,
-                  const std::string& about, Option::More more) {
+void Options::add_with_text(const std::string& name, const std::string& type, T* member,
+                            const std::string& about, Option::More more) {
   const auto read = [name, member, more](const std::string& word) {
     read_into(*member, {input::Value::Kind::scalar, {name, 0}, word}, more);
   };

@@ -18,7 +18,6 @@ namespace lcs::app {
 struct RecordingKey {
   const char* key;
   const char* type;  ///< "FILE": a path; with commas: a list; "": a flag
-  const char* about;
 };
 
 /// All but `format`, whose help text lists the layouts.

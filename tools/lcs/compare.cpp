@@ -67,14 +67,9 @@ ExitCode compare(const CompareOptions& options) {
 
 app::Options options_of(CompareOptions& options) {
   app::Options all = app::options_of(options.request);
-  all.add("--all", "", &options.all,
-          "Also unchanged figures, and figures without a better direction; with --frames all "
-          "corners");
-  all.add("--frames", "", &options.frames,
-          "Instead of figures, name the first frame of each run that differs, with its corners");
-  all.add(
-      "--fail-on-regression", "", &options.fail_on_regression,
-      "Exit with 1 after a regression: this command always does, lcs suite only if it is asked");
+  all.add("--all", "", &options.all);
+  all.add("--frames", "", &options.frames);
+  all.add("--fail-on-regression", "", &options.fail_on_regression);
   add_format(all, options.format);
   return all;
 }

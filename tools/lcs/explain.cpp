@@ -192,17 +192,13 @@ ExitCode explain(const ExplainOptions& options) {
 
 app::Options options_of(ExplainOptions& options) {
   app::Options all("explain");
-  all.add("RUN", "", &options.run, "Folder of a run", {.is_required = true});
-  all.add("FRAME", "", &options.frame, "Number of a frame, from 0");
-  all.add("X", "", &options.x_px, "Column of the corner, px", {.needs = "Y"});
-  all.add("Y", "", &options.y_px, "Row of the corner, px");
-  all.add("--track", "N", &options.track, "The corner on this track, in place of X and Y",
-          {.excludes = "X"});
-  all.add(
-      "--json", "", &options.json,
-      "Print a JSON object; without X, Y and --track a line for each corner of the frame, without "
-      "FRAME of all frames");
-  all.add("--picture", "FILE", &options.picture, "Write a picture too (PNG)", {.is_output = true});
+  all.add("RUN", "", &options.run, {.is_required = true});
+  all.add("FRAME", "", &options.frame);
+  all.add("X", "", &options.x_px, {.needs = "Y"});
+  all.add("Y", "", &options.y_px);
+  all.add("--track", "N", &options.track, {.excludes = "X"});
+  all.add("--json", "", &options.json);
+  all.add("--picture", "FILE", &options.picture, {.is_output = true});
   all.add_force(options.force);
   return all;
 }

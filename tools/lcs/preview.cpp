@@ -85,14 +85,12 @@ ExitCode preview(const PreviewOptions& options) {
 app::Options options_of(PreviewOptions& options) {
   app::Options all("preview");
   all.add_scenario(options.scenario);
-  all.add("--out", "FILE", &options.out, "The page; out/preview/SCENARIO.html if not given",
-          {.is_output = true});
+  all.add("--out", "FILE", &options.out, {.is_output = true});
   all.add_force(options.force);
-  all.add("--mjcf", "FILE", &options.mjcf,
-          "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb", {.is_output = true});
+  all.add("--mjcf", "FILE", &options.mjcf, {.is_output = true});
   all.add_seed(options.seed);
-  all.add_set(options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  all.add("--quiet", "", &options.quiet, "Print only the problems");
+  all.add_set(options.sets);
+  all.add("--quiet", "", &options.quiet);
   return all;
 }
 

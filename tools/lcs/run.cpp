@@ -86,13 +86,8 @@ ExitCode run(const RunOptions& options) {
 
 app::Options options_of(RunOptions& options) {
   app::Options all = app::options_of(options.request);
-  all.add("--keys", "", &options.keys,
-          "Print every key of a scenario file: meaning, default, values",
-          {.prints = scenario::keys_text});
-  all.add("--view", "", &options.view,
-          "Show the four panels in a window while it runs, no faster than the camera: space pauses "
-          "and goes on, . goes on by one frame, q closes it; the last frame stays until a key is "
-          "pressed");
+  all.add("--keys", "", &options.keys, {.prints = scenario::keys_text});
+  all.add("--view", "", &options.view);
   all.add_quiet(options.quiet);
   add_format(all, options.format);
   return all;
@@ -116,9 +111,7 @@ ExitCode replay(const ReplayOptions& options) {
 
 app::Options options_of(ReplayOptions& options) {
   app::Options all = app::options_of(options.request);
-  all.add("--write", "FILE", &options.write,
-          "Write the scenario that the options make to this file, and run nothing",
-          {.is_output = true});
+  all.add("--write", "FILE", &options.write, {.is_output = true});
   all.add_force(options.force);
   all.add_quiet(options.quiet);
   return all;

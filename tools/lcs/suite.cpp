@@ -29,10 +29,8 @@ struct SuiteEndOptions {
 
 /// Adds `--fail-on-regression`, `--worst-first`, `--quiet` and `--format`.
 void add_suite_end(app::Options& all, SuiteEndOptions& options) {
-  all.add("--fail-on-regression", "", &options.fail_on_regression,
-          "Exit with 1 after a regression against the baseline, as lcs compare does",
-          {.needs = "--baseline"});
-  all.add("--worst-first", "", &options.worst_first, "Sort the table by F1");
+  all.add("--fail-on-regression", "", &options.fail_on_regression, {.needs = "--baseline"});
+  all.add("--worst-first", "", &options.worst_first);
   all.add_quiet(options.quiet);
   add_format(all, options.format);
 }
@@ -130,7 +128,7 @@ ExitCode suite(const SuiteOptions& options) {
 app::Options options_of(SuiteOptions& options) {
   app::Options all = app::options_of(options.request);
   add_suite_end(all, options.end);
-  all.add("--list", "", &options.list, "Only list the runs");
+  all.add("--list", "", &options.list);
   return all;
 }
 
