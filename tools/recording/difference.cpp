@@ -69,28 +69,23 @@ std::vector<CornerDifference> corners_of(const FrameRecord& before, const FrameR
 }
 
 /// A recording's frames, with the lines that they would be stored as.
-class Lines {
- public:
-  explicit Lines(const std::filesystem::path& folder) : reader_(folder) {}
+struct Lines {
+  RecordingReader reader;
+  bool is_there = false;
+  FrameRecord frame = {};
+  std::string layers = {}, truth = {};
 
   void next() {
-    is_there = reader_.next(frame);
+    is_there = reader.next(frame);
     layers = is_there ? layers_line(frame) : "";
     truth = is_there ? truth_line(frame) : "";
   }
-
-  bool is_there = false;
-  FrameRecord frame;
-  std::string layers, truth;
-
- private:
-  RecordingReader reader_;
 };
 
 }  // namespace
 
 Difference difference_of(const std::filesystem::path& before, const std::filesystem::path& after) {
-  Lines was(before), is(after);
+  Lines was{RecordingReader(before)}, is{RecordingReader(after)};
   Difference found;
   for (was.next(), is.next(); was.is_there || is.is_there; was.next(), is.next()) {
     ++found.frames;

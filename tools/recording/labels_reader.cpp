@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -152,8 +153,7 @@ std::optional<std::uint64_t> video_in(const files::JsonNode& json, const std::st
       ids[name] = id_in(one["id"]);
     });
   }
-  std::vector<std::string> names;
-  for (const auto& [name, id] : ids) names.push_back(name);
+  const auto names = std::views::keys(ids);
   if (const auto found = ids.find(video); found != ids.end()) return found->second;
   if (!video.empty()) {
     throw files::JsonNode::Error(

@@ -56,31 +56,26 @@ void append(std::string& out, Enum value) {
   out += '"';
 }
 
+void append_list(std::string& out, const auto& items, const auto& append_item) {
+  out += '[';
+  for (const auto& item : items) {
+    if (out.back() != '[') out += ',';
+    append_item(item);
+  }
+  out += ']';
+}
 /// A matrix row by row.
 template <class Derived>
 void append(std::string& out, const Eigen::MatrixBase<Derived>& numbers) {
-  out += '[';
-  for (const double number : numbers.template reshaped<Eigen::RowMajor>()) {
-    if (out.back() != '[') out += ',';
-    append(out, number);
-  }
-  out += ']';
+  append_list(out, numbers.template reshaped<Eigen::RowMajor>(),
+              [&](double number) { append(out, number); });
 }
 void append(std::string& out, const std::vector<float>& numbers) {
-  out += '[';
-  for (const float number : numbers) {
-    if (out.back() != '[') out += ',';
-    append(out, std::round(100 * double{number}) / 100);
-  }
-  out += ']';
+  append_list(out, numbers,
+              [&](float number) { append(out, std::round(100 * double{number}) / 100); });
 }
 void append(std::string& out, std::span<const Vec2> points) {
-  out += '[';
-  for (const Vec2& point : points) {
-    if (out.back() != '[') out += ',';
-    append(out, point);
-  }
-  out += ']';
+  append_list(out, points, [&](const Vec2& point) { append(out, point); });
 }
 void append(std::string& out, Form<Outline> outline) {
   append(out, std::as_const(outline.value).vertices());
