@@ -10,14 +10,6 @@
 #include "tools/scoring/metrics.h"
 
 namespace lcs::scoring {
-namespace {
-
-bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) {
-  return figure && (!criterion.min || *figure >= *criterion.min) &&
-         (!criterion.max || *figure <= *criterion.max);
-}
-
-}  // namespace
 
 std::string bounds(std::optional<double> min, std::optional<double> max) {
   std::string text;
@@ -80,7 +72,8 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
   std::vector<JudgedCriterion> judged;
   for (const scenario::Criterion& criterion : criteria) {
     const std::optional<double> figure = value(metrics, criterion.metric);
-    const bool met = is_met(criterion, figure);
+    const bool met = figure && (!criterion.min || *figure >= *criterion.min) &&
+                     (!criterion.max || *figure <= *criterion.max);
     JudgedCriterion& one =
         judged.emplace_back(JudgedCriterion{.metric = criterion.metric,
                                             .min = criterion.min,

@@ -281,14 +281,12 @@ std::vector<std::vector<std::size_t>> groups_of(const recording::FrameRecord& fr
 /// The number of the moving object with the nearest box; 0 if nothing moves.
 int nearest_mover(const recording::FrameRecord& frame, const Boxes& boxes,
                   const recording::Box& box) {
-  int nearest = 0;
-  double least = 0;
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (!truth.moving) continue;
-    const double d = boxes.at(truth.object).exteriorDistance(box);
-    if (nearest == 0 || d < least) std::tie(nearest, least) = std::tuple(truth.object, d);
-  }
-  return nearest;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const auto nearest =
+      std::ranges::min_element(frame.object_truth, {}, [&](const sim::ObjectTruth& truth) {
+        return truth.moving ? boxes.at(truth.object).exteriorDistance(box) : kFar;
+      });
+  return nearest != frame.object_truth.end() && nearest->moving ? nearest->object : 0;
 }
 
 /// Groups of false rebels and false circles, tracked through the frames.

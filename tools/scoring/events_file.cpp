@@ -50,13 +50,11 @@ std::vector<std::pair<Enum, int>> counts_in(const files::JsonNode& node, Enum la
 }
 
 EventView view_of(const files::JsonNode& node) {
-  EventView view;
-  view.frame = node["frame"].natural<int>();
-  view.t_s = node["t_s"].number();
-  view.centre_px = {node["x"].number(), node["y"].number()};
-  view.half_size_px = {node["half_width"].number(), node["half_height"].number()};
-  view.jpeg_base64 = node["jpeg_base64"].text();
-  return view;
+  return {.frame = node["frame"].natural<int>(),
+          .t_s = node["t_s"].number(),
+          .centre_px = {node["x"].number(), node["y"].number()},
+          .half_size_px = {node["half_width"].number(), node["half_height"].number()},
+          .jpeg_base64 = node["jpeg_base64"].text()};
 }
 
 ScoredEvent event_of(const files::JsonNode& node) {

@@ -155,9 +155,8 @@ SquareOutcomes square_outcomes(const recording::FrameRecord& frame) {
 }
 
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
-  std::ranges::sort(pairs, [](const BoxPair& a, const BoxPair& b) {
-    return std::tuple(-a.iou, a.box, a.square) < std::tuple(-b.iou, b.box, b.square);
-  });
+  std::ranges::sort(
+      pairs, {}, [](const BoxPair& pair) { return std::tuple(-pair.iou, pair.box, pair.square); });
   std::set<int> taken_boxes;
   std::set<Id> taken_squares;
   std::vector<BoxPair> matched;
