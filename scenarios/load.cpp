@@ -18,8 +18,6 @@
 namespace lcs::scenario {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A value to read, its path in messages, and the folder of the scenario.
 struct Item {
   const input::Value& value;

@@ -15,8 +15,6 @@
 
 namespace lcs::scenario {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// " (it has lab, street)", or empty.

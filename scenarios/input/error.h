@@ -4,9 +4,15 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+/// The short name of all code that reads and writes files.
+namespace lcs {
+namespace fs = std::filesystem;
+}
 
 namespace lcs::input {
 

@@ -461,7 +461,6 @@ void fade(cv::Mat3b& picture, double contrast) {
 }
 
 std::vector<std::string> pictures_in(const std::string& folder) {
-  namespace fs = std::filesystem;
   std::vector<std::string> files;
   std::error_code error;
   input::note_input(folder);

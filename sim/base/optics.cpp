@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// tan(80 deg): a pinhole that sees more is larger than any picture.

@@ -6,6 +6,8 @@
 
 namespace lcs::sim {
 
+using Eigen::Vector3d;
+
 /// T_AB maps the coordinates of a point from B to A: p_A = R p_B + p.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

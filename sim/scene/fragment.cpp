@@ -16,7 +16,6 @@ namespace lcs::sim {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 using scenario::Shape;
 using xml::Element;
 

@@ -12,8 +12,6 @@
 namespace lcs::sim {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kTolerance = 1e-6;
 
 /// Rejects an element that can move relative to the body `base`, at any depth.

@@ -22,7 +22,6 @@
 namespace lcs::sim {
 namespace {
 
-namespace fs = std::filesystem;
 using xml::Element;
 
 /// The range of an attribute that MuJoCo does not check, and whose excess the trial in a

@@ -15,7 +15,6 @@ namespace {
 /// The size limit is of MJCF text with mesh vertices.
 constexpr input::FileKind kModelFile{64 * input::kMebibyte, "give the path of an MJCF file"};
 
-namespace fs = std::filesystem;
 using namespace std::string_literals;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLNode;

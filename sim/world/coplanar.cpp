@@ -10,8 +10,6 @@
 namespace lcs::sim {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kFlush_m = 1e-4;   // two surfaces that near have one depth in a picture
 constexpr double kBefore_m = 0.02;  // from there on the eye has to see
 constexpr int kGrid = 8;            // rays along each side of a geom's box

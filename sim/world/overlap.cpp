@@ -11,8 +11,6 @@
 namespace lcs::sim {
 namespace {
 
-using Eigen::Vector3d;
-
 struct Box {
   Pose T_WX;
   Vector3d half_m = Vector3d::Zero();

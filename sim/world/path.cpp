@@ -10,7 +10,6 @@ namespace lcs::sim {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr std::size_t kDegree = 3;
 

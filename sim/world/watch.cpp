@@ -11,8 +11,6 @@
 namespace lcs::sim {
 namespace {
 
-using Eigen::Vector3d;
-
 // Smaller overlaps are ignored: an image does not show them (feet in carpets, wheels that deform).
 constexpr double kLeastDepth_m = 0.02;
 // Actors keep their height and may step over obstacles up to this height above their feet (kerbs,

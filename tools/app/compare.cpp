@@ -19,7 +19,6 @@
 #include "tools/suite/tables.h"
 
 namespace lcs::app {
-namespace fs = std::filesystem;
 
 Compared compare(const CompareRequest& request) {
   const suite::Pattern wanted(request.metric, "--metric", "rebel.*f1");

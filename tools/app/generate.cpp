@@ -25,8 +25,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 scenario::Scenario load(const GenerateRequest& request) {
   scenario::Scenario scenario =
       scenario::load(request.paths.front(), {.sets = request.sets, .seed = request.seed});

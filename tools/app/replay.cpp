@@ -9,7 +9,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
 using input::Value;
 
 constexpr std::string_view kTopics = "topics.";

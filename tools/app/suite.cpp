@@ -21,8 +21,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 bool of_worlds(const SuiteRequest& request) {
   return !request.worlds.split.empty();
 }

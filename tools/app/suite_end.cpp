@@ -21,8 +21,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A part, which may come from another machine and from somebody else.
 struct Part {
   fs::path folder;

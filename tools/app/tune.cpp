@@ -20,8 +20,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Joins the user's texts into one line; "none" if empty.
 std::string line_of(const std::vector<std::string>& texts) {
   std::string line;

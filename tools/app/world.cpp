@@ -25,8 +25,6 @@
 namespace lcs::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kFolder = "out/worlds";
 
 /// The plan view, and an optional contact sheet (tools/preview/sheet.h).

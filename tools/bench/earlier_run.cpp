@@ -10,7 +10,6 @@
 namespace lcs::bench {
 namespace {
 
-namespace fs = std::filesystem;
 using WorldFacts = std::map<std::string, std::string>;
 
 std::string as_written(const WorldFacts& world, const std::string& key) {

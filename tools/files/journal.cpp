@@ -17,8 +17,6 @@
 namespace lcs::files {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view kComment = "# ";
 constexpr int kHeadLines = 3;
 

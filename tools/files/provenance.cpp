@@ -15,8 +15,6 @@
 namespace lcs::files {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kRead = "read";
 /// Entries beside a provenance's own; they determine no byte of a result.
 constexpr std::array<std::string_view, 4> kCircumstances{"command", "started", "wall_s", "cpu_s"};

@@ -14,8 +14,6 @@
 namespace lcs::files {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kDigits = 64;
 constexpr std::size_t kLargestRecord = std::size_t{256} << 20;
 

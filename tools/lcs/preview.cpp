@@ -30,7 +30,6 @@ struct PreviewOptions {
   bool quiet = false;
 };
 
-namespace fs = std::filesystem;
 
 void print_preview(const scenario::Scenario& scenario, const preview::Preview& p,
                    const fs::path& page) {

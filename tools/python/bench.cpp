@@ -34,8 +34,6 @@ extern const std::string_view kSuiteHelp, kCompareHelp, kWorldHelp, kRunHelp, kR
 
 namespace {
 
-namespace fs = std::filesystem;
-
 using namespace py::literals;
 
 using app::Texts;

@@ -21,8 +21,6 @@
 
 namespace lcs::replay {
 
-namespace fs = std::filesystem;
-
 class Tally;
 
 /// Formats problem and remedy. \param where the file, perhaps with its line; empty: told with them.

@@ -32,7 +32,6 @@ extern const std::string_view kReportJs;
 
 namespace {
 
-namespace fs = std::filesystem;
 using suite::RunResult;
 using suite::ScenarioResult;
 using suite::SuiteInFolder;

@@ -20,7 +20,6 @@ extern const std::string_view kWorldsCss;  // worlds.css
 
 namespace {
 
-namespace fs = std::filesystem;
 using suite::ScenarioResult;
 using suite::SuiteResult;
 

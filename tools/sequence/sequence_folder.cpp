@@ -24,8 +24,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameEntry, files, rows, checks)
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr input::FileKind kManifestDocument{
     4 * input::kGibibyte,  // one file of each kind per frame, for a million frames
     "choose another folder with --out, or remove this one to make the sequence anew"};

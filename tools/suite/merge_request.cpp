@@ -18,7 +18,6 @@
 namespace lcs::suite {
 namespace {
 
-namespace fs = std::filesystem;
 using scoring::in_markdown;
 
 /// Scenarios that are listed; the others are counted.

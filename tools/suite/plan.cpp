@@ -18,8 +18,6 @@
 namespace lcs::suite {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Limit on characters times repetitions by braces, because std::regex recurses for each.
 constexpr double kMostParts = 1000;
 

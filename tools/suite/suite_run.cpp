@@ -18,8 +18,6 @@
 namespace lcs::suite {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Rough estimate for runs without any known duration, in s.
 constexpr double kSecondsPerWork = 1e-7;
 

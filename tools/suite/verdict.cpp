@@ -18,8 +18,6 @@
 namespace lcs::suite {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Limit of figures that a remark names; it only counts the others.
 constexpr std::ptrdiff_t kMostFigures = 4;
 
