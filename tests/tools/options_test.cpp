@@ -204,7 +204,8 @@ TEST(Help, EndsWithoutAWordWhereItsReaderHasEnough) {
 }
 
 TEST(Help, HasEveryTextOfTheFileOfTexts) {
-  std::istringstream lines(read(std::filesystem::path(LCS_SOURCE_DIR) / "tools/app/options.txt"));
+  const std::filesystem::path scenarios = LCS_SCENARIOS_DIR;
+  std::istringstream lines(read(scenarios.parent_path() / "tools/app/options.txt"));
   std::map<std::string, std::vector<std::string>> texts;  // by command
   std::string command;
   for (std::string line; std::getline(lines, line);) {

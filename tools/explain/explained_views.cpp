@@ -13,12 +13,9 @@ files::Json rounded(double x) {
   return std::isnan(x) ? files::Json(nullptr) : files::Json(std::round(100 * x) / 100);
 }
 
-files::Json xy(const Vec2& x) {
-  return {rounded(x.x()), rounded(x.y())};
-}
-
 files::Json prediction(const Explanation& why, TrackColumn x) {
-  return std::isnan(why.miss_px(x)) ? files::Json(nullptr) : xy(why.predicted_px(x));
+  if (std::isnan(why.miss_px(x))) return nullptr;
+  return {rounded(why.predicted_px(x).x()), rounded(why.predicted_px(x).y())};
 }
 
 files::Json corner_json(const Explained& said, std::size_t corner) {
