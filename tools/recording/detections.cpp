@@ -333,20 +333,12 @@ void FrameDetections::add_circle(const Vec2& location, double radius) {
   if (circles.size() == kMostCircles) {
     refuse("there are more than {} circles in the frame; give objects' circles", kMostCircles);
   }
-  Circle circle;
-  circle.id = static_cast<Id>(circles.size());
-  circle.rebel = true;
-  circle.location = location;
-  circle.radius = radius;
-  circles.push_back(circle);
+  const auto id = static_cast<Id>(circles.size());
+  circles.push_back({.id = id, .rebel = true, .location = location, .radius = radius});
 }
 
 VerdictCounts FrameDetections::finish() {
-  struct Pair {
-    double distance_px;
-    std::size_t said, corner;
-  };
-  std::vector<Pair> pairs;
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // distance, said, corner
   std::vector<char> in_reach(placed_.size()), used(placed_.size());
   for (std::size_t said = 0; said < placed_.size(); ++said) {
     for (std::size_t corner = 0; corner < named_.size(); ++corner) {
@@ -354,12 +346,10 @@ VerdictCounts FrameDetections::finish() {
           (frame_->corners_px[corner].cast<double>() - placed_[said].place_px).norm();
       if (distance_px > kCornerReach_px) continue;
       in_reach[said] = 1;
-      if (!named_[corner]) pairs.push_back({distance_px, said, corner});
+      if (!named_[corner]) pairs.emplace_back(distance_px, said, corner);
     }
   }
-  std::ranges::sort(pairs, [](const Pair& a, const Pair& b) {
-    return std::tie(a.distance_px, a.said, a.corner) < std::tie(b.distance_px, b.said, b.corner);
-  });
+  std::ranges::sort(pairs);
   for (const auto& [distance_px, said, corner] : pairs) {
     if (used[said] || named_[corner]) continue;
     used[said] = named_[corner] = 1;
