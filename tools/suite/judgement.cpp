@@ -11,113 +11,98 @@
 namespace lcs::suite {
 namespace {
 
-/// Names the criteria of a run, or those over seeds, without their bounds. Repeated names are
-/// numbered.
-class Names {
- public:
-  std::string next(const scoring::JudgedCriterion& criterion) {
-    std::string name = criterion.metric;
-    if (criterion.min) name += " min";
-    if (criterion.max) name += " max";
-    if (!criterion.required) name += " (not required)";
-    if (criterion.over != "seed") name += fmt::format(" of the {} over seeds", criterion.over);
-    if (const int number = ++times_[name]; number > 1) name += fmt::format(" #{}", number);
-    return name;
-  }
+/// Names a criterion of a run, or one over seeds, without its bounds. Repeated names are numbered.
+/// \param times how often a name is taken.
+std::string name_of(const scoring::JudgedCriterion& criterion, std::map<std::string, int>& times) {
+  std::string name = criterion.metric;
+  if (criterion.min) name += " min";
+  if (criterion.max) name += " max";
+  if (!criterion.required) name += " (not required)";
+  if (criterion.over != "seed") name += fmt::format(" of the {} over seeds", criterion.over);
+  if (const int number = ++times[name]; number > 1) name += fmt::format(" #{}", number);
+  return name;
+}
 
- private:
-  std::map<std::string, int> times_;
-};
+void add(Judgement one, const scoring::JudgedCriterion& criterion, std::vector<Judgement>& all) {
+  one.judged = criterion.met ? Judged::met : criterion.required ? Judged::failed : Judged::missed;
+  one.message = criterion.message;
+  one.is_of_criterion = true;
+  all.push_back(std::move(one));
+}
 
-class Lister {
- public:
-  std::vector<Judgement> list(const SuiteResult& suite, std::span<const SuiteResult> others) {
-    for (const ScenarioResult& scenario : suite.scenarios) {
-      for (const RunResult& run : scenario.runs) {
-        add_run(scenario, run, "");
-        for (const SuiteResult& other : others) {
-          const ScenarioResult* by_other = find(other, scenario.name);
-          const RunResult* found = by_other ? find(*by_other, run.seed) : nullptr;
-          if (!found) continue;
-          // One process runs all detectors, so that its error is told once.
-          const bool is_new_error =
-              found->outcome == Outcome::error && run.outcome != Outcome::error;
-          if (is_new_error || !found->criteria.empty()) {
-            add_run(scenario, *found, other.detector + ": ");
-          }
-        }
-      }
-      add_over_seeds(scenario, scenario, "");
-      for (const SuiteResult& other : others) {
-        const ScenarioResult* by_other = find(other, scenario.name);
-        if (by_other) add_over_seeds(scenario, *by_other, other.detector + ": ");
-      }
+/// \param by "" for the suite's own detector, else such as "klt: ".
+void add_run(const ScenarioResult& scenario, const RunResult& run, const std::string& by,
+             std::vector<Judgement>& all) {
+  Judgement one{.scenario = scenario.name,
+                .file = scenario.file,
+                .name = fmt::format("{}runs, seed {}", by, run.seed),
+                .anchor = anchor_of(scenario.name, run.seed),
+                .time_s = by.empty() ? run.wall_s : 0};
+  if (run.outcome == Outcome::error || run.criteria.empty()) {
+    if (run.outcome == Outcome::error) {
+      one.judged = Judged::error;
+      one.message = run.error;
     }
-    return std::move(all_);
+    all.push_back(std::move(one));
+    return;
   }
-
- private:
-  /// \param by "" for the suite's own detector, else such as "klt: ".
-  void add_run(const ScenarioResult& scenario, const RunResult& run, const std::string& by) {
-    Judgement one{.scenario = scenario.name,
-                  .file = scenario.file,
-                  .name = fmt::format("{}runs, seed {}", by, run.seed),
-                  .anchor = anchor_of(scenario.name, run.seed),
-                  .time_s = by.empty() ? run.wall_s : 0};
-    if (run.outcome == Outcome::error || run.criteria.empty()) {
-      if (run.outcome == Outcome::error) {
-        one.judged = Judged::error;
-        one.message = run.error;
-      }
-      all_.push_back(std::move(one));
-      return;
-    }
-    one.time_s /= static_cast<double>(run.criteria.size());
-    Names names;
-    for (const scoring::JudgedCriterion& criterion : run.criteria) {
-      if (criterion.over != "seed") continue;
-      one.name = fmt::format("{}{}, seed {}", by, names.next(criterion), run.seed);
-      add(one, criterion);
-    }
+  one.time_s /= static_cast<double>(run.criteria.size());
+  std::map<std::string, int> times;
+  for (const scoring::JudgedCriterion& criterion : run.criteria) {
+    if (criterion.over != "seed") continue;
+    one.name = fmt::format("{}{}, seed {}", by, name_of(criterion, times), run.seed);
+    add(one, criterion, all);
   }
+}
 
-  void add_over_seeds(const ScenarioResult& scenario, const ScenarioResult& judged,
-                      const std::string& by) {
-    double time_s = 0;
-    const RunResult* first = nullptr;
-    for (const RunResult& run : judged.runs) {
-      if (run.outcome == Outcome::error || run.criteria.empty()) continue;
-      if (by.empty()) time_s += run.wall_s / static_cast<double>(run.criteria.size());
-      first = first ? first : &run;
-    }
-    if (!first) return;
-    Names names;
-    for (const scoring::JudgedCriterion& criterion : first->criteria) {
-      if (criterion.over == "seed") continue;
-      add({.scenario = scenario.name,
-           .file = scenario.file,
-           .name = by + names.next(criterion),
-           .anchor = anchor_of(scenario.name),
-           .time_s = time_s},
-          criterion);
-    }
+void add_over_seeds(const ScenarioResult& scenario, const ScenarioResult& judged,
+                    const std::string& by, std::vector<Judgement>& all) {
+  double time_s = 0;
+  const RunResult* first = nullptr;
+  for (const RunResult& run : judged.runs) {
+    if (run.outcome == Outcome::error || run.criteria.empty()) continue;
+    if (by.empty()) time_s += run.wall_s / static_cast<double>(run.criteria.size());
+    first = first ? first : &run;
   }
-
-  void add(Judgement one, const scoring::JudgedCriterion& criterion) {
-    one.judged = criterion.met ? Judged::met : criterion.required ? Judged::failed : Judged::missed;
-    one.message = criterion.message;
-    one.is_of_criterion = true;
-    all_.push_back(std::move(one));
+  if (!first) return;
+  std::map<std::string, int> times;
+  for (const scoring::JudgedCriterion& criterion : first->criteria) {
+    if (criterion.over == "seed") continue;
+    add({.scenario = scenario.name,
+         .file = scenario.file,
+         .name = by + name_of(criterion, times),
+         .anchor = anchor_of(scenario.name),
+         .time_s = time_s},
+        criterion, all);
   }
-
-  std::vector<Judgement> all_;
-};
+}
 
 }  // namespace
 
 std::vector<Judgement> judgements_of(const SuiteResult& suite,
                                      std::span<const SuiteResult> others) {
-  return Lister().list(suite, others);
+  std::vector<Judgement> all;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    for (const RunResult& run : scenario.runs) {
+      add_run(scenario, run, "", all);
+      for (const SuiteResult& other : others) {
+        const ScenarioResult* by_other = find(other, scenario.name);
+        const RunResult* found = by_other ? find(*by_other, run.seed) : nullptr;
+        if (!found) continue;
+        // One process runs all detectors, so that its error is told once.
+        const bool is_new_error = found->outcome == Outcome::error && run.outcome != Outcome::error;
+        if (is_new_error || !found->criteria.empty()) {
+          add_run(scenario, *found, other.detector + ": ", all);
+        }
+      }
+    }
+    add_over_seeds(scenario, scenario, "", all);
+    for (const SuiteResult& other : others) {
+      const ScenarioResult* by_other = find(other, scenario.name);
+      if (by_other) add_over_seeds(scenario, *by_other, other.detector + ": ", all);
+    }
+  }
+  return all;
 }
 
 CriteriaCounts count_criteria(const std::vector<Judgement>& judgements) {
