@@ -365,17 +365,14 @@ std::string Comparison::note() const {
 
 std::optional<Change> Comparison::of_scenario(const std::string& name) const {
   if (lost.contains(name)) return Change::regressed;
-  std::optional<Change> worst;
+  std::set<Change> verdicts;
   for (const Difference& difference : differences) {
-    if (difference.scenario != name) continue;
-    if (difference.verdict == Change::regressed) return Change::regressed;
-    if (difference.verdict == Change::unknown) worst = Change::unknown;
-    if (difference.verdict == Change::improved && worst != Change::unknown) {
-      worst = Change::improved;
-    }
-    if (!worst) worst = Change::none;
+    if (difference.scenario == name) verdicts.insert(difference.verdict);
   }
-  return worst;
+  for (const Change worst : {Change::regressed, Change::unknown, Change::improved}) {
+    if (verdicts.contains(worst)) return worst;
+  }
+  return verdicts.empty() ? std::nullopt : std::optional(Change::none);
 }
 
 bool Comparison::has_regressed() const {

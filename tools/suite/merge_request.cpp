@@ -92,19 +92,11 @@ std::optional<Grown> most_grown(const SuiteInFolder& before, const SuiteInFolder
 
 /// The view with a picture that is nearest to a frame; null without one.
 const scoring::EventView* view_near(const scoring::ScoredEvent& event, int frame) {
-  const scoring::EventView* nearest = nullptr;
-  for (const scoring::EventView& view : event.views) {
-    if (view.jpeg_base64.empty()) continue;
-    if (nearest == nullptr || std::abs(view.frame - frame) < std::abs(nearest->frame - frame)) {
-      nearest = &view;
-    }
-  }
-  return nearest;
-}
-
-std::string unit_of(const scoring::ScoredEvent& event) {
-  constexpr const char* kUnits[] = {"corners", "circles", "frames"};
-  return kUnits[static_cast<std::size_t>(family_of(event.kind))];
+  const auto nearest = std::ranges::min_element(event.views, {}, [&](const auto& view) {
+    return std::pair(view.jpeg_base64.empty(), std::abs(view.frame - frame));
+  });
+  const bool is_there = nearest != event.views.end() && !nearest->jpeg_base64.empty();
+  return is_there ? &*nearest : nullptr;
 }
 
 /// One side's picture, as a cell of the table.
@@ -118,6 +110,7 @@ std::string picture(const fs::path& folder, const std::string& name,
 }
 
 std::string event_text(const fs::path& folder, const Grown& grown, const std::string& pictures_at) {
+  constexpr const char* kUnits[] = {"corners", "circles", "frames"};
   const scoring::ScoredEvent& event = grown.after;
   const int middle = (event.first_frame + event.last_frame) / 2;
   const scoring::EventView* shown = view_near(event, middle);
@@ -128,7 +121,7 @@ std::string event_text(const fs::path& folder, const Grown& grown, const std::st
   std::string text = fmt::format(
       "\n**The event that grew most**: {}, frames {} to {}: {}{}, {} {} (before: {}).\n\n",
       in_markdown(grown.run), event.first_frame, event.last_frame, text_of(event.kind).meaning,
-      object, cost_of(event), unit_of(event), was);
+      object, cost_of(event), kUnits[static_cast<std::size_t>(family_of(event.kind))], was);
   text += "| before | after |\n|---|---|\n";
   text += fmt::format(
       "| {} | {} |\n",

@@ -86,12 +86,11 @@ std::vector<File> files_of(std::vector<fs::path> paths) {
           "there is no file or folder {}; give scenario files or folders of them", path.string()));
     }
   }
-  std::vector<File> once;
   std::set<fs::path> seen;
-  for (const File& file : files) {
-    if (seen.insert(fs::weakly_canonical(file.path)).second) once.push_back(file);
-  }
-  return once;
+  std::erase_if(files, [&](const File& file) {
+    return !seen.insert(fs::weakly_canonical(file.path)).second;
+  });
+  return files;
 }
 
 /// Converts a value to a part of a name: "0.5 m/s" to "0.5mps", "[4 m, -1.3 m]" to "4m_-1.3m".

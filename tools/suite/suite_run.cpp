@@ -228,9 +228,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     commands.push_back(options.child_of(planned, planned.seeds[job.run], options.detectors));
   }
 
-  SuiteProgress progress;
-  progress.total = total;
-  progress.done = total - jobs.size();
+  SuiteProgress progress{total - jobs.size(), total, {}, {}};
   const double all_seconds = std::accumulate(
       jobs.begin(), jobs.end(), 0.0, [](double sum, const Job& job) { return sum + job.seconds; });
   double done_seconds = 0;

@@ -135,8 +135,7 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
                          std::size_t column) {
   const auto ahead = [&](const Row& row) { return row.figures[0] - row.figures[column]; };
   const auto count = std::ranges::count_if(rows, [&](const Row& row) { return ahead(row) > 0; });
-  const Row& least = *std::ranges::min_element(
-      rows, [&](const Row& a, const Row& b) { return ahead(a) < ahead(b); });
+  const Row& least = *std::ranges::min_element(rows, {}, ahead);
   std::string line =
       fmt::format("{} is ahead of {} in {} of {}, least in {} ({:+.3f})", suite.detector,
                   other.detector, count, rows.size(), least.name, ahead(least));
@@ -155,8 +154,7 @@ std::string suite_table(const SuiteResult& suite, bool worst_first, Format forma
   std::vector<const ScenarioResult*> rows;
   for (const ScenarioResult& scenario : suite.scenarios) rows.push_back(&scenario);
   if (worst_first) {
-    std::ranges::stable_sort(
-        rows, [](const auto* a, const auto* b) { return badness_key(*a) < badness_key(*b); });
+    std::ranges::stable_sort(rows, {}, [](const auto* row) { return badness_key(*row); });
   }
   const bool of_worlds = is_of_worlds(suite), is_text = format == Format::text;
   std::vector<std::string> groups = groups_of(suite);

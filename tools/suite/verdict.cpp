@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -141,8 +142,7 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
   const auto weight = [](const Difference* one) {
     return one->metric == scoring::kF1 ? std::numeric_limits<double>::infinity() : one->weight;
   };
-  std::ranges::stable_sort(found,
-                           [&](const auto* a, const auto* b) { return weight(a) > weight(b); });
+  std::ranges::stable_sort(found, std::greater(), weight);
   for (const Difference* one : found) to.weight = std::max(to.weight, one->weight);
   for (const Difference* one : std::span(found).first(
            static_cast<std::size_t>(std::min(std::ssize(found), kMostFigures)))) {
@@ -233,9 +233,8 @@ SuiteVerdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
       all.push_back(std::move(*found));
     }
   }
-  std::ranges::stable_sort(all, [](const Weighed& a, const Weighed& b) {
-    return std::pair(a.worst(), -a.weight) < std::pair(b.worst(), -b.weight);
-  });
+  std::ranges::stable_sort(all, {},
+                           [](const Weighed& one) { return std::pair(one.worst(), -one.weight); });
   const CriteriaCounts criteria = count_criteria(judgements_of(after.suite, others));
   std::optional<Finding> finding;
   if (comparison) finding = comparison->finding(criteria.unmet());
@@ -258,9 +257,8 @@ std::string text_of(const SuiteVerdict& verdict) {
 }
 
 std::string text_of(const std::vector<Standing>& standings) {
-  std::vector<const char*> words;
-  for (const Standing standing : standings) words.push_back(word_of(standing));
-  return fmt::format("{}", fmt::join(words, ", "));
+  const auto word = [](Standing standing) { return word_of(standing); };
+  return fmt::format("{}", fmt::join(standings | std::views::transform(word), ", "));
 }
 
 const char* word_of(Light light) {
