@@ -59,13 +59,11 @@ ErrorSummary summary(std::vector<double> errors_px) {
   if (errors_px.empty()) return {};
   double squares = 0;
   for (const double error : errors_px) squares += error * error;
-  ErrorSummary result;
-  result.count = errors_px.size();
-  result.rms_px = std::sqrt(squares / static_cast<double>(errors_px.size()));
-  result.median_px = *scoring::median(errors_px);
-  result.p95_px = *scoring::quantile(errors_px, 0.95);
-  result.max_px = *std::ranges::max_element(errors_px);
-  return result;
+  return {.count = errors_px.size(),
+          .median_px = *scoring::median(errors_px),
+          .p95_px = *scoring::quantile(errors_px, 0.95),
+          .max_px = *std::ranges::max_element(errors_px),
+          .rms_px = std::sqrt(squares / static_cast<double>(errors_px.size()))};
 }
 
 std::vector<double> errors(const FieldStep& step, const FieldModel& model,
@@ -74,7 +72,6 @@ std::vector<double> errors(const FieldStep& step, const FieldModel& model,
   parameters.rotation = model.rotation;
   const MotionField field(step.camera, step.motion, parameters);
   std::vector<double> all;
-  all.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) {
     // The field takes the ratio at the end of the interval; the learnt one is from its start.
     const double ratio = model.depth == DepthSource::reference ? 1
@@ -113,7 +110,6 @@ PointSet geometric_points(const sim::Pinhole& camera, std::span<const double> de
   set.seen_from = [camera, sites = set.sites](const sim::Pose& T_CN) {
     const sim::Pose T_NC = T_CN.inverse();
     std::vector<Vec2> seen;
-    seen.reserve(sites.size());
     for (const Site& site : sites) {
       const Eigen::Vector3d p_N = T_NC * camera.back_project(site.px, site.depth_m);
       seen.push_back(p_N.z() > kNearest_m ? camera.project(p_N) : Vec2::Constant(std::nan("")));
@@ -137,7 +133,6 @@ PointSet rendered_points(const sim::Pinhole& camera, sim::FrameTruth truth,
                    corners = std::move(fixed)](const sim::Pose& T_CN) {
     truth->next.T_WC = truth->now.T_WC * T_CN;
     std::vector<Vec2> seen;
-    seen.reserve(corners.size());
     const auto moved = sim::label_corners(camera, *truth, corners, 1);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       seen.push_back(corners[i].cast<double>() + moved[i].static_motion_px);
@@ -153,7 +148,6 @@ std::vector<Landmark> landmarks(const PointSet& points, const sim::Pose& T_CN,
   const sim::Pose T_NC = T_CN.inverse();
   const MotionField learning(bench::intrinsics(points.camera), {}, field);
   std::vector<Landmark> seen;
-  seen.reserve(after.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
     const Site& site = points.sites[i];
     const double depth_after_m = (T_NC * points.camera.back_project(site.px, site.depth_m)).z();
