@@ -22,6 +22,8 @@
 namespace lcs::files {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t kMostBytesOfDigest = 100;
 constexpr const char* kAnother = "choose another place, or move it away";
 
