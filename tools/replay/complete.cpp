@@ -39,15 +39,6 @@ bool set_times(const RecordingSource& asked, Recorded& recorded) {
   return fps.has_value();
 }
 
-/// Keeps the requested frames.
-void choose(const RecordingSource& asked, int most, std::vector<RecordedFrame>& frames) {
-  const auto every = static_cast<std::size_t>(asked.every);
-  std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
-  if (most > 0 && frames.size() > static_cast<std::size_t>(most)) {
-    frames.resize(static_cast<std::size_t>(most));
-  }
-}
-
 /// Pictures without a line are left out.
 CameraPoses poses_by_line(const fs::path& path, const PosesFile& file, Recorded& recorded) {
   CameraPoses poses;
@@ -538,8 +529,12 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
            "{} does not say {}; give these keys of recording, or the options of lcs replay; {}",
            asked.path.string(), fmt::join(recorded.lacks, ", and "), kNeutralWay);
   }
-  choose(asked, scenario.frames, recorded.frames);
-  if (recorded.frames.empty()) {
+  std::vector<RecordedFrame>& frames = recorded.frames;
+  const auto every = static_cast<std::size_t>(asked.every),
+             most = static_cast<std::size_t>(scenario.frames);
+  std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
+  if (scenario.frames > 0) frames.resize(std::min(frames.size(), most));
+  if (frames.empty()) {
     refuse(asked.source, "no picture is left; give a smaller every");
   }
   set_format(asked, recorded);

@@ -74,10 +74,6 @@ double sway_of(const Vector3d& way_m, double sigma_m) {
   return kDeviations * sigma_m / std::max(way_m.norm(), kLeast_m);
 }
 
-RigidMotion in_axes(const Matrix3d& axes, const RigidMotion& motion) {
-  return {axes * motion.R * axes.transpose(), axes * motion.t_m, motion.sway};
-}
-
 /// The turn, near a first one, by which the motion sees most corners; bodies that move count
 /// little.
 Matrix3d fitted_turn(const auto& tracks, RigidMotion motion, double tolerance) {
@@ -213,10 +209,8 @@ void MotionCheck::add(const cv::Mat3b& image, const sim::Rectifier& rectifier, s
     changes_.push_back({cv::norm(grey, last_, cv::NORM_L1) / static_cast<double>(grey.total()),
                         told.v_C_mps.norm() * told.dt_s + turn_rad});
   }
-  if (!goes_on || !follow(grey)) {
-    finish(rectifier);
-    begin(grey, t_ns);
-  } else {
+  const bool is_followed = goes_on && follow(grey);
+  if (is_followed) {
     step_.told.R = told.R_cur_prev * step_.told.R;
     step_.told.t_m = told.R_cur_prev * step_.told.t_m - told.v_C_mps * told.dt_s;
     step_.sigma_m += told.velocity_sigma_mps * told.dt_s;
@@ -228,10 +222,10 @@ void MotionCheck::add(const cv::Mat3b& image, const sim::Rectifier& rectifier, s
       moved_px.push_back(cv::norm(at_px_[i] - began_px_[i]));
     }
     step_.moved_px = *usual(std::move(moved_px));
-    if (step_.moved_px >= kStep_px) {
-      finish(rectifier);
-      begin(grey, t_ns);
-    }
+  }
+  if (!is_followed || step_.moved_px >= kStep_px) {
+    finish(rectifier);
+    begin(grey, t_ns);
   }
   last_ = grey;
 }
@@ -276,7 +270,8 @@ std::vector<MotionCheck::Fit> MotionCheck::fits_of(const auto& motion_in,
   for (const Matrix3d& axes : all_axes()) {
     Fit& fit = fits.emplace_back(Fit{reading, axes, {}});
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-      const RigidMotion motion = in_axes(axes, motions[i]);
+      const auto& [R, t_m, sway] = motions[i];
+      const RigidMotion motion{axes * R * axes.transpose(), axes * t_m, sway};
       std::ranges::copy(seen_by(motion, steps_[i].tracks, kClose * steps_[i].tolerance),
                         std::back_inserter(fit.seen));
     }

@@ -38,13 +38,6 @@ std::map<std::string, std::string> read_info(const fs::path& file) {
   return info;
 }
 
-/// Absent for an invalid rate.
-std::optional<double> rate_in(std::string_view text) {
-  const auto number = files::number_in<double>(text);
-  constexpr double kFastest_hz = 10000;
-  return number && *number > 0 && *number <= kFastest_hz ? number : std::nullopt;
-}
-
 /// The pictures in the order of their numbers, or by name if that order is not certain.
 void take_unordered(const fs::path& folder, Recorded& recorded) {
   try {
@@ -169,7 +162,9 @@ Recorded read_mot(const RecordingSource& asked, bool) {
   take_pictures(asked.path / text("imDir", "img1"), "", recorded);
   recorded.numbers.first = 1;
   recorded.timed = false;
-  recorded.fps = rate_in(text("frameRate", ""));
+  constexpr double kFastest_hz = 10000;
+  const auto rate_hz = files::number_in<double>(text("frameRate", ""));
+  if (rate_hz && *rate_hz > 0 && *rate_hz <= kFastest_hz) recorded.fps = rate_hz;
   const auto listed = files::number_in<std::size_t>(text("seqLength", ""));
   if (listed && *listed != recorded.frames.size()) {
     recorded.tally.add("lists of pictures have another length than there are pictures",

@@ -1,6 +1,7 @@
 #include "tools/replay/recorded.h"
 
 #include <numeric>
+#include <ranges>
 
 #include "scenarios/input/inputs_read.h"
 
@@ -85,16 +86,15 @@ const std::vector<RecordingLayout>& layouts() {
 }
 
 const RecordingLayout& layout_of(const RecordingSource& asked) {
-  std::string names;
   input::note_input(asked.path);
   for (const RecordingLayout& layout : layouts()) {
     if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
   refuse(asked.source,
          "{} holds no pictures, and is none of the other layouts that are known ({}); "
          "tools/replay/README.md says what each holds; {}",
-         asked.path.string(), names, kNeutralWay);
+         asked.path.string(),
+         fmt::join(layouts() | std::views::transform(&RecordingLayout::name), ", "), kNeutralWay);
 }
 
 bool motion_is_asked(const RecordingSource& asked) {

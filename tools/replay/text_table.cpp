@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <ranges>
 
 #include "scenarios/input/input_file.h"
 #include "tools/files/csv.h"
@@ -214,9 +215,8 @@ std::optional<std::size_t> Quantities::place_of(std::string_view name) const {
 std::string TextTable::columns() const {
   if (header.empty())
     return fmt::format("it has {} columns and no header", rows.front().fields.size());
-  std::vector<std::string> names;
-  for (const Column& column : header) names.push_back(column.name);
-  return fmt::format("its columns are {}", fmt::join(names, ", "));
+  return fmt::format("its columns are {}",
+                     fmt::join(header | std::views::transform(&Column::name), ", "));
 }
 
 std::string TextTable::at(const Row& row) const {
