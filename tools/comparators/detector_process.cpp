@@ -12,10 +12,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <sstream>
 #include <system_error>
 #include <thread>
 
+#include "tools/files/csv.h"
 #include "tools/process/child.h"
 
 namespace lcs::comparators {
@@ -28,7 +28,7 @@ constexpr auto kTick = 50ms;        // between calls of on_wait
 constexpr auto kPatience = 2s;      // for a process to exit after a request
 constexpr auto kLastWords = 500ms;  // for the last output of a process that exits
 constexpr std::size_t kMostStderr = 1U << 16U;
-constexpr std::size_t kMostLines = 8;  // of stderr in messages
+constexpr std::ptrdiff_t kMostLines = 8;  // of stderr in messages
 
 [[noreturn]] void fail_to_connect() {
   throw std::system_error(errno, std::generic_category(), "no pipe to the detector can be made");
@@ -192,15 +192,9 @@ void DetectorProcess::finish() {
 }
 
 std::vector<std::string> DetectorProcess::said() const {
-  std::vector<std::string> lines;
-  std::istringstream text(stderr_);
-  for (std::string line; std::getline(text, line);) {
-    if (!line.empty()) lines.push_back(line);
-  }
-  if (lines.size() > kMostLines) {
-    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kMostLines));
-  }
-  return lines;
+  std::vector<std::string_view> lines = files::split(stderr_, '\n');
+  std::erase(lines, "");
+  return {lines.end() - std::min(std::ssize(lines), kMostLines), lines.end()};
 }
 
 /// Waits until a pipe is ready, at most for a tick.
@@ -268,11 +262,9 @@ void DetectorProcess::fail_ended() {
 
 /// Waits for the program's exit, and reads its output until then.
 void DetectorProcess::wait_for_end(Clock::time_point deadline) {
-  bool ended = has_ended();
-  while (!ended && Clock::now() < deadline) {
+  while (!has_ended() && Clock::now() < deadline) {
     read_what_is_there();
     wait(false, std::min(deadline, Clock::now() + 5ms));
-    ended = has_ended();
   }
   read_what_is_there();
 }
