@@ -30,7 +30,6 @@ struct PreviewOptions {
   bool quiet = false;
 };
 
-
 void print_preview(const scenario::Scenario& scenario, const preview::Preview& p,
                    const fs::path& page) {
   std::string text =
