@@ -12,7 +12,7 @@ def html_of(name: str, value: Any) -> str:
     if value is None or value in ("", [], {}):
         return ""
     if isinstance(value, str) and "\n" in value:
-        return f"<pre>{escape(value)}</pre>"
+        return f'<pre style="font-family: monospace">{escape(value)}</pre>'
     if isinstance(value, dict):
         inside = "".join(html_of(key, one) for key, one in value.items())
     elif isinstance(value, list) and isinstance(value[0], dict):
