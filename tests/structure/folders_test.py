@@ -23,7 +23,7 @@ MAY_INCLUDE = {
 # The namespaces of the folders; another folder of tools/ has one of its own name.
 NAMESPACES = {
     "scenarios": {"lcs::scenario"},
-    "scenarios/input": {"lcs::input"},
+    "scenarios/input": {"lcs::input", "lcs"},  # `lcs`: fs, the short name of std::filesystem
     "filter": {"lcs"},
     "filter/paper": {"lcs::paper", "lcs"},  # `lcs`: the class for users
     "sim": {"lcs::sim"},

@@ -204,6 +204,7 @@ TEST(Help, EndsWithoutAWordWhereItsReaderHasEnough) {
 }
 
 TEST(Help, HasEveryTextOfTheFileOfTexts) {
+  const TemporaryFolder folder;
   const std::filesystem::path scenarios = LCS_SCENARIOS_DIR;
   std::istringstream lines(read(scenarios.parent_path() / "tools/app/options.txt"));
   std::map<std::string, std::vector<std::string>> texts;  // by command
@@ -216,7 +217,7 @@ TEST(Help, HasEveryTextOfTheFileOfTexts) {
   std::string all;
   for (const auto& [name, own] : texts) {
     if (name == "*") continue;
-    const CommandResult help = run_lcs({name, "--help"}, {});
+    const CommandResult help = run_lcs({name, "--help"}, {.folder = folder.path()});
     EXPECT_EQ(help.exit_code, 0) << name;
     for (const std::string& text : own) {
       EXPECT_NE(help.out.find(text), std::string::npos) << name << ": " << text;
