@@ -10,7 +10,7 @@
 
 namespace lcs::sequence {
 
-/// readme/foxglove.json, a layout of Foxglove.
+/// foxglove.json of this folder, a layout of Foxglove.
 extern const std::string_view kFoxglove;
 
 namespace {

@@ -14,6 +14,7 @@
 #include "scenarios/input/sha256.h"
 #include "tools/files/json_node.h"
 #include "tools/files/written.h"
+#include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
 
@@ -32,8 +33,13 @@ constexpr const char* kFrames = "frames-";
 constexpr const char* kSign = "# Written by `lcs generate`: the frames that are finished";
 constexpr const char* kRemedy = "remove this file to have its frames made again";
 constexpr const char* kFormats = "formats";
-/// Facts by which a sequence may differ from the one that formats are added to.
-constexpr std::array<std::string_view, 4> kOfFormats{kFormats, "rosbags", "rerun-sdk", "h5py"};
+/// Facts by which a sequence may differ from the one that formats are added to: the formats, and
+/// the libraries that write some of them.
+constexpr auto kOfFormats = [] {
+  std::array<std::string_view, 1 + kScripted.size()> names{kFormats};
+  std::ranges::transform(kScripted, names.begin() + 1, &Scripted::library);
+  return names;
+}();
 
 /// Formats decide the names of a sequence's files.
 files::ResultNames sequence_files() {
